@@ -1,0 +1,1 @@
+"""Divide a closed surface by one closed curve, and make two interlocking printable solids of it."""

@@ -1,0 +1,1 @@
+"""Many runs: workers that make one folder per config."""

@@ -1,0 +1,62 @@
+"""What a set of parts is expected to be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import NamedTuple
+
+from fabricate.checks.facts import Verdict, Xyz
+from fabricate.process import Process
+from fabricate.solid.part import Part
+
+
+class Spaces(NamedTuple):
+    """The gap between the parts, empty where they touch, and the whole shell, uncut: closed meshes."""
+
+    gap: Part
+    shell: Part
+
+
+class Neck(NamedTuple):
+    """The narrowest neck of the pattern before clearance is taken off, mm, and where it is."""
+
+    width: float
+    at: Xyz
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Expectations:
+    """What the parts should be; the checks that need something left at None are skipped.
+
+    Attributes
+    ----------
+    clearance : float or None
+        Gap between the parts, mm.
+    genus : mapping of str to int
+        Handles of each part, by name; a part that is not in it has no genus expected.
+    process : Process or None
+        How they will be printed.
+    neck : Neck or None
+        The pattern's narrowest.
+    spaces : Spaces or None
+        What the parts leave free, and what they add up to with it.
+    verdict : {"captive", "separable", "fused"} or None
+        Whether two parts come apart. Left at None it is "captive", or "fused" where the clearance is 0.
+    """
+
+    clearance: float | None = None
+    genus: Mapping[str, int] = field(default_factory=dict)
+    process: Process | None = None
+    neck: Neck | None = None
+    spaces: Spaces | None = None
+    verdict: Verdict | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "genus", MappingProxyType(dict(self.genus)))
+
+    @property
+    def expected_verdict(self) -> Verdict:
+        """What two parts should be, with what `verdict` leaves open filled in."""
+        return self.verdict or ("fused" if self.clearance == 0.0 else "captive")

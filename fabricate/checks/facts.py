@@ -1,0 +1,159 @@
+"""What is measured of a mesh, a pattern, a part and a fit; field names are the keys of report.json."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic, Literal, TypeAlias, TypeVar
+
+Xyz: TypeAlias = tuple[float, float, float]
+"""A point, or three lengths along the axes, mm."""
+
+Verdict: TypeAlias = Literal["captive", "separable", "fused"]
+"""Whether two rigid parts are caught in each other, come apart, or touch and are one."""
+
+_Quantity = TypeVar("_Quantity", int, float)
+
+
+@dataclass(frozen=True)
+class ByColour(Generic[_Quantity]):
+    """One quantity of either region."""
+
+    yellow: _Quantity
+    blue: _Quantity
+
+
+@dataclass(frozen=True)
+class Spread:
+    """The smallest and the median of many lengths, mm."""
+
+    min: float
+    median: float
+
+
+@dataclass(frozen=True)
+class Gap:
+    """The smallest distance between parts, mm, and where it is; no place where they touch on purpose."""
+
+    min: float
+    at: Xyz | None
+
+
+@dataclass(frozen=True)
+class Play:
+    """How far one part can move between its stops, mm, to first order; inf where nothing stops it.
+
+    Attributes
+    ----------
+    x, y, z : float
+        Way from one stop to the opposite one along each axis.
+    rx, ry, rz : float
+        The same for turning about each axis, as the way of a point as far from the pivot as the part's
+        farthest one.
+    """
+
+    x: float
+    y: float
+    z: float
+    rx: float
+    ry: float
+    rz: float
+
+
+@dataclass(frozen=True)
+class MeshFacts:
+    """The closed surface that is divided; sizes along the axes."""
+
+    vertices: int
+    faces: int
+    genus: int
+    size_mm: Xyz
+
+
+@dataclass(frozen=True)
+class PatternFacts:
+    """The duotone: its tiles, its curve and its two regions.
+
+    Attributes
+    ----------
+    tiles, curves, regions : int
+        How many there are; a duotone has one curve and two regions.
+    tile_size_mm : float
+        Median side of a tile.
+    curve_length_mm : float
+        Length of the curve on the surface.
+    area_share : ByColour
+        Share of the surface, between 0 and 1.
+    handles : ByColour
+        Handles of each region; they sum to the genus.
+    neck_mm : Spread
+        Widths of the joined tiles' necks, before clearance is taken off.
+    """
+
+    tiles: int
+    tile_size_mm: float
+    curves: int
+    regions: int
+    curve_length_mm: float
+    area_share: ByColour[float]
+    handles: ByColour[int]
+    neck_mm: Spread
+
+
+@dataclass(frozen=True)
+class PartFacts:
+    """One solid, as its file holds it.
+
+    Attributes
+    ----------
+    file : str
+        Name of its STL file.
+    triangles : int
+        How many there are.
+    volume_mm3, area_mm2 : float
+        Enclosed volume, negative if inside out, and surface area.
+    genus : int or None
+        Handles of its surface, or None where the surface is not a closed manifold.
+    components : int
+        Connected pieces of the surface.
+    watertight : bool
+        Whether every edge has two triangles, once in each direction.
+    self_intersections : int
+        Pairs of triangles that cross.
+    wall_mm : Spread or None
+        Wall thickness; the median is weighted by area. None where no two faces are opposite each other.
+    """
+
+    file: str
+    triangles: int
+    volume_mm3: float
+    area_mm2: float
+    genus: int | None
+    components: int
+    watertight: bool
+    self_intersections: int
+    wall_mm: Spread | None
+
+
+@dataclass(frozen=True)
+class FitFacts:
+    """How the parts go together; None where it could not be measured or is not known.
+
+    Attributes
+    ----------
+    clearance_mm : float or None
+        The gap that was asked for.
+    gap_mm : Gap or None
+        The smallest one found.
+    overlap_mm3 : float or None
+        Volume that parts have in common.
+    verdict : {"captive", "separable", "fused"} or None
+        See `fabricate.checks.mobility`.
+    play_mm : Play or None
+        How far the first part moves in the second; None for fused parts too.
+    """
+
+    clearance_mm: float | None
+    gap_mm: Gap | None
+    overlap_mm3: float | None
+    verdict: Verdict | None
+    play_mm: Play | None

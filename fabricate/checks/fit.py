@@ -1,0 +1,112 @@
+"""The fit of finished parts: common volume, smallest gap, and volumes that add up to the whole."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from manifold3d import Manifold
+
+from fabricate.arrays import Floats
+from fabricate.checks.check import MOST_PLACES, Check
+from fabricate.checks.facts import Gap
+from fabricate.checks.geometry import signed_volume
+from fabricate.checks.wording import place
+from fabricate.solid.part import Part
+
+OVERLAP_SHARE = 1e-6
+"""Largest common volume of two parts, as a share of the smaller one."""
+
+GAP_SHARE = 0.95
+"""Smallest gap that is accepted, as a share of the clearance that was asked for."""
+
+VOLUME_SHARE = 1e-3
+"""Largest difference between the sum of all volumes and the whole, as a share of the whole."""
+
+
+def overlap_check(code: str, first: Part, second: Part, common: Manifold, *, smaller_volume: float) -> Check:
+    """Check that two parts have no volume in common; points at the pieces they share.
+
+    Parameters
+    ----------
+    code : str
+    first, second : Part
+        For their names.
+    common : Manifold
+        Their intersection.
+    smaller_volume : float
+        Volume of the smaller part, mm3.
+    """
+    volume = common.volume()
+    ok = volume <= OVERLAP_SHARE * smaller_volume
+    return Check(
+        code,
+        ok=ok,
+        message=f"{first.name} and {second.name} must not overlap, and they have {volume:.6g} mm3 in common",
+        where=np.zeros((0, 3)) if ok else _piece_places(common),
+    )
+
+
+def gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: float | None) -> Check:
+    """Check that two parts keep at least 95 % of the clearance; points at the smallest gap.
+
+    Skipped when no clearance is known, and when it is 0, because the parts touch on purpose then.
+    """
+    names = f"{first.name} and {second.name}"
+    where = np.array([gap.at] if gap.at is not None else np.zeros((0, 3)))
+    if clearance is None:
+        message = f"the smallest gap between {names} is {gap.min:.4g} mm; no clearance was asked for"
+        return Check(code, ok=False, skipped=True, message=message, where=where)
+    if clearance == 0.0:
+        message = f"{names} touch on purpose: the clearance is 0, so only their overlap counts"
+        return Check(code, ok=False, skipped=True, message=message)
+    ok = not gap.min < GAP_SHARE * clearance
+    spot = "" if ok or gap.at is None else f", at {place(gap.at)}"
+    return Check(
+        code,
+        ok=ok,
+        message=f"the gap between {names} must be at least {GAP_SHARE * clearance:.4g} mm, {GAP_SHARE:.0%} "
+        f"of the clearance of {clearance:.4g} mm, and the smallest is {gap.min:.4g} mm{spot}",
+        where=where,
+    )
+
+
+def whole_check(code: str, parts: Sequence[Part], gap: Part, shell: Part) -> Check:
+    """Check that the volumes of the parts and of the gap between them add up to that of the uncut shell.
+
+    Parameters
+    ----------
+    code : str
+    parts : sequence of Part
+    gap : Part
+        The space between the parts, a closed mesh; empty for parts that touch.
+    shell : Part
+        The whole, uncut.
+    """
+    names = ", ".join(part.name for part in parts)
+    total = sum(signed_volume(part) for part in (*parts, gap))
+    whole = signed_volume(shell)
+    return Check(
+        code,
+        ok=abs(total - whole) <= VOLUME_SHARE * abs(whole),
+        message=f"{names} and the gap must add up to the shell's {whole:.6g} mm3 within {VOLUME_SHARE:.1%}, "
+        f"and they have {total:.6g} mm3",
+    )
+
+
+def _piece_places(common: Manifold) -> Floats:
+    """Return a place on the surface of each connected piece, (k, 3), mm, the largest piece first."""
+    pieces = sorted(common.decompose(), key=lambda piece: -piece.volume())[:MOST_PLACES]
+    return np.array([_central_place(piece) for piece in pieces]).reshape(-1, 3)
+
+
+def _central_place(piece: Manifold) -> Floats:
+    """Return the triangle's centroid nearest to the middle of the bounding box of a piece, (3,), mm.
+
+    The middle itself is outside a bent piece.
+    """
+    mesh = piece.to_mesh64()
+    centroids = np.asarray(mesh.vert_properties)[:, :3][np.asarray(mesh.tri_verts)].mean(axis=1)
+    middle = np.reshape(piece.bounding_box(), (2, 3)).mean(axis=0)
+    nearest: Floats = centroids[np.linalg.norm(centroids - middle, axis=1).argmin()]
+    return nearest

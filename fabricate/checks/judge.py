@@ -1,0 +1,168 @@
+"""Judging a set of finished parts: every fact, every check, never stopping at the first fault.
+
+The codes of all checks, which other programs may rely on; PART stands for the name of each part:
+
+    PART.closed              every edge has exactly two triangles
+    PART.oriented            the two run along it in opposite directions
+    PART.vertex_manifold     the triangles at each vertex are one fan
+    PART.components          the part is one piece
+    PART.nondegenerate       every triangle has an area
+    PART.genus               it has the number of handles that its region asks for
+    PART.volume              its volume is positive
+    PART.self_intersections  no triangles cross (exact)
+    PART.manifold            Manifold takes it as a solid of the same volume
+    PART.wall                its thinnest wall is thick enough for the process
+    FIT.overlap              two parts have no volume in common
+    FIT.gap                  the smallest gap between them is at least 95 % of the clearance
+    fit.whole                volumes of the parts and the gap add up to the uncut shell
+    fit.mobility             two parts are captive, separable or fused, as they should be
+    fit.process_gap          the process keeps the clearance open
+    pattern.neck             necks are wide enough for the process
+
+FIT is "fit" for two parts, and "fit.FIRST-SECOND" with their names for each pair of more. A single part has
+no fit.* checks but `fit.process_gap`. What is not known or could not be measured is skipped, not left out.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+from manifold3d import Manifold
+
+from fabricate.arrays import Floats, Indices
+from fabricate.checks.check import Check
+from fabricate.checks.expectations import Expectations
+from fabricate.checks.facts import FitFacts, PartFacts
+from fabricate.checks.geometry import (
+    area,
+    as_manifold,
+    is_solid,
+    manifold_check,
+    self_intersection_check,
+    signed_volume,
+    volume_check,
+)
+from fabricate.checks.pairs import Fit, Solid, fit
+from fabricate.checks.printability import neck_check, process_gap_check, wall_check
+from fabricate.checks.topology import topology
+from fabricate.checks.walls import walls
+from fabricate.errors import ReadError
+from fabricate.mesh.reading import read_mesh
+from fabricate.solid.crossing import crossing_triangles
+from fabricate.solid.part import Part
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """Facts of each part by name, facts of their fit (None for a single part), and all checks."""
+
+    parts: Mapping[str, PartFacts]
+    fit: FitFacts | None
+    checks: tuple[Check, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _JudgedPart:
+    part: Part
+    manifold: Manifold
+    facts: PartFacts
+    checks: tuple[Check, ...]
+
+
+def read_part(path: Path) -> Part:
+    """Read a part from a binary or text STL file; corners with equal coordinates become one point.
+
+    The part is named after the file, without its extension. Nothing is repaired. Numbers in text are rounded
+    to float32, which all programs that print hold them in, before corners are compared.
+
+    Raises
+    ------
+    ReadError
+        If the file is missing, is no mesh of triangles, is damaged or holds unusable numbers.
+    """
+    mesh = read_mesh(path)
+    if (mesh.face_sizes != 3).any():
+        largest = mesh.face_sizes.max()
+        raise ReadError(f"{path}: a mesh of triangles was expected, found a face with {largest} corners")
+    points, numbers = _stored(mesh.points)
+    return Part(path.stem, points, numbers[mesh.corners].reshape(-1, 3))
+
+
+def _stored(points: Floats) -> tuple[Floats, Indices]:
+    """Return points as float32 holds them, each once, and the number that each point has got."""
+    stored = points.astype(np.float32).astype(np.float64)
+    if np.array_equal(stored, points):
+        return stored, np.arange(len(points))
+    return np.unique(stored, axis=0, return_inverse=True)
+
+
+def judged_parts(parts: Sequence[Part], expectations: Expectations) -> Judgement:
+    """Measure parts and check them, each by itself and each pair; the codes are listed above.
+
+    Parameters
+    ----------
+    parts : sequence of Part
+        At least one, with different names and finite coordinates, as `read_part` returns them.
+    expectations : Expectations
+        What they should be.
+
+    Raises
+    ------
+    ReadError
+        If there are no parts, or two have the same name.
+    """
+    _check_names(parts)
+    judged = [_judged_part(part, expectations) for part in parts]
+    checks = [check for each in judged for check in each.checks]
+    together = _judged_together(judged, expectations) if len(judged) > 1 else None
+    checks += together.checks if together else ()
+    clearance, process = expectations.clearance, expectations.process
+    checks.append(process_gap_check(clearance, process=process))
+    checks.append(neck_check(expectations.neck, clearance=clearance, process=process))
+    facts = MappingProxyType({each.part.name: each.facts for each in judged})
+    return Judgement(facts, together.facts if together else None, tuple(checks))
+
+
+def _check_names(parts: Sequence[Part]) -> None:
+    if not parts:
+        raise ReadError("at least one part was expected, found none")
+    name, count = Counter(part.name for part in parts).most_common(1)[0]
+    if count > 1:
+        raise ReadError(f"parts with different names were expected, found {count} named '{name}'; rename one")
+
+
+def _judged_part(part: Part, expectations: Expectations) -> _JudgedPart:
+    connected = topology(part, expected_genus=expectations.genus.get(part.name))
+    volume, manifold, measured = signed_volume(part), as_manifold(part), walls(part)
+    crossing = crossing_triangles(part.points, part.triangles)
+    facts = PartFacts(
+        file=f"{part.name}.stl",
+        triangles=len(part.triangles),
+        volume_mm3=volume,
+        area_mm2=area(part),
+        genus=connected.genus,
+        components=connected.components,
+        watertight=connected.watertight,
+        self_intersections=len(crossing),
+        wall_mm=measured.spread,
+    )
+    checks = (
+        *connected.checks,
+        volume_check(part, volume),
+        self_intersection_check(part, crossing),
+        manifold_check(part, manifold, volume=volume),
+        wall_check(part, measured, process=expectations.process),
+    )
+    return _JudgedPart(part, manifold, facts, checks)
+
+
+def _judged_together(judged: Sequence[_JudgedPart], expectations: Expectations) -> Fit:
+    solids = {
+        each.part.name: Solid.of(each.part, each.manifold) for each in judged if is_solid(each.manifold)
+    }
+    return fit([each.part for each in judged], solids, expectations)

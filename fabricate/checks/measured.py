@@ -1,0 +1,77 @@
+"""Facts about the surface and the pattern on it, for the report and for what the parts are expected to be."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fabricate.checks.expectations import Expectations, Neck, Spaces
+from fabricate.checks.facts import ByColour, MeshFacts, PatternFacts, Spread
+from fabricate.duotone.certificate import Certificate
+from fabricate.duotone.duotone import Duotone
+from fabricate.mesh.closed import genus
+from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.process import Process
+from fabricate.solid.assembly import Assembly, Core
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.neck import tile_necks
+from fabricate.surface.sizing import tile_sides
+
+
+def mesh_facts(mesh: PolygonMesh, surface: CutSurface) -> MeshFacts:
+    """Return the counts of the mesh that was divided and the size of the finished outer surface."""
+    x, y, z = (float(side) for side in np.ptp(surface.points, axis=0))
+    return MeshFacts(len(mesh.points), len(mesh.offsets) - 1, genus(mesh), (x, y, z))
+
+
+def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurface) -> PatternFacts:
+    """Return what was counted and measured of the pattern on the cut surface."""
+    corners = surface.points[surface.triangles]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    share = float(area[surface.yellow].sum() / area.sum())
+    curve = surface.points[surface.curve]
+    length = float(np.linalg.norm(np.roll(curve, -1, axis=0) - curve, axis=1).sum())
+    necks = tile_necks(surface)[0]
+    return PatternFacts(
+        tiles=len(duotone.joined),
+        tile_size_mm=float(np.median(tile_sides(duotone.quads))),
+        curves=certificate.curves,
+        regions=certificate.yellow.components + certificate.blue.components,
+        curve_length_mm=length,
+        area_share=ByColour(share, 1.0 - share),
+        handles=ByColour(certificate.yellow.handles, certificate.blue.handles),
+        neck_mm=Spread(float(necks.min()), float(np.median(necks))),
+    )
+
+
+def expectations(
+    surface: CutSurface,
+    solids: Assembly,
+    certificate: Certificate,
+    *,
+    clearance: float,
+    core: Core,
+    process: Process | None = None,
+) -> Expectations:
+    """Return what the two parts of these solids should be, when they are read back from their files."""
+    necks, places = tile_necks(surface)
+    x, y, z = (float(value) for value in places[necks.argmin()])
+    gap, shell = solids.spaces
+    return Expectations(
+        clearance=clearance,
+        genus=expected_genus(certificate.yellow.handles, certificate.blue.handles, core=core),
+        process=process,
+        neck=Neck(float(necks.min()), (x, y, z)),
+        spaces=Spaces(gap, shell),
+    )
+
+
+def expected_genus(yellow: int, blue: int, *, core: Core) -> dict[str, int]:
+    """Return the handles of each solid, from those of its region.
+
+    A region thickened is bounded by two copies of itself: twice its handles. A part with a core is bounded by
+    its own region and a copy of the other one: the genus of the whole.
+    """
+    return {
+        "yellow": yellow + blue if core == "yellow" else 2 * yellow,
+        "blue": yellow + blue if core == "blue" else 2 * blue,
+    }

@@ -1,0 +1,116 @@
+"""Judging what lies on disk: a folder that a run has made, or any STL files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from pydantic import BaseModel, ValidationError
+
+from fabricate.checks.check import Check
+from fabricate.checks.expectations import Expectations
+from fabricate.checks.judge import Judgement, judged_parts, read_part
+from fabricate.checks.measured import expected_genus
+from fabricate.config import load_config
+from fabricate.errors import ReadError
+from fabricate.process import PROCESSES
+
+VOLUME_MOVED = 1e-4
+"""A volume that differs by more than this share from the one in the report has moved."""
+
+
+class Recheck(NamedTuple):
+    """What was judged, its name, the hash of its config if it has one, and the outcome."""
+
+    name: str
+    config_sha256: str
+    judgement: Judgement
+
+
+class _Handles(BaseModel):
+    yellow: int
+    blue: int
+
+
+class _Pattern(BaseModel):
+    handles: _Handles
+
+
+class _Part(BaseModel):
+    file: str
+    volume_mm3: float
+
+
+class _Recorded(BaseModel):
+    """What is needed of a report.json."""
+
+    name: str
+    config_sha256: str
+    pattern: _Pattern
+    parts: dict[str, _Part]
+
+
+def rechecked(paths: Sequence[Path], *, clearance: float | None) -> Recheck:
+    """Read parts back and judge them; one folder made by `run`, or one or more STL files.
+
+    In a folder, report.json and config.toml say what the parts should be, and volumes are compared with those
+    in the report. Between bare files only what files can tell is judged; the rest is skipped.
+
+    Raises
+    ------
+    ReadError
+        If a file is missing or damaged, or folders and files are mixed.
+    """
+    folders = [path for path in paths if path.is_dir()]
+    if not folders:
+        parts = [read_part(path) for path in paths]
+        name = "+".join(part.name for part in parts)
+        return Recheck(name, "", judged_parts(parts, Expectations(clearance=clearance)))
+    if len(paths) > 1:
+        raise ReadError(f"one folder or several STL files were expected, found {len(paths)} paths with a folder")
+    return _rechecked_folder(folders[0], clearance)
+
+
+def _rechecked_folder(folder: Path, clearance: float | None) -> Recheck:
+    recorded = _recorded(folder / "report.json")
+    config = load_config(folder / "config.toml")
+    handles = recorded.pattern.handles
+    parts = [read_part(folder / part.file) for part in recorded.parts.values()]
+    judgement = judged_parts(
+        parts,
+        Expectations(
+            clearance=config.solid.clearance if clearance is None else clearance,
+            genus=expected_genus(handles.yellow, handles.blue, core=config.solid.core),
+            process=PROCESSES[config.process.name],
+        ),
+    )
+    moved = tuple(
+        _volume_moved(name, judgement.parts[name].volume_mm3, part.volume_mm3)
+        for name, part in recorded.parts.items()
+        if name in judgement.parts
+    )
+    return Recheck(
+        recorded.name,
+        recorded.config_sha256,
+        Judgement(judgement.parts, judgement.fit, judgement.checks + moved),
+    )
+
+
+def _volume_moved(name: str, found: float, recorded: float) -> Check:
+    ok = abs(found - recorded) <= VOLUME_MOVED * abs(recorded)
+    verb = "is" if ok else "has moved from"
+    message = f"{name}: the volume {found:.2f} mm3 {verb} the {recorded:.2f} mm3 of the report"
+    return Check(f"{name}.recorded_volume", ok=ok, message=message)
+
+
+def _recorded(path: Path) -> _Recorded:
+    try:
+        return _Recorded.model_validate(json.loads(path.read_bytes()))
+    except OSError:
+        raise ReadError(
+            f"{path}: not found or not readable; name a folder that `fabricate run` has made, or STL files"
+        ) from None
+    except (ValueError, ValidationError):
+        raise ReadError(f"{path}: this is not a report that `fabricate run` has written") from None

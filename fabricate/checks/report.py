@@ -1,0 +1,109 @@
+"""The report: all facts and all checks of one run, and its form in report.json."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from fabricate.checks.check import Check
+from fabricate.checks.facts import FitFacts, MeshFacts, PartFacts, PatternFacts
+
+__all__ = ["Check", "Report", "report_json"]
+
+DIGITS = 6
+"""Significant digits of the numbers in report.json; float32 coordinates hold seven."""
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """What is known of a finished set of parts.
+
+    Attributes
+    ----------
+    name : str
+        The sculpture's, that is the stem of its config or folder.
+    config_sha256 : str
+        Of the resolved config; empty when there was none.
+    versions : mapping of str to str
+        Version of each program that took part.
+    mesh, pattern, fit
+        Facts, or None when there was nothing to measure, as for STL files without a config.
+    parts : mapping of str to PartFacts
+        By the parts' names.
+    checks : tuple of Check
+        Every check, in the order of judging.
+    seconds : mapping of str to float
+        Time that each stage took.
+    """
+
+    name: str
+    config_sha256: str
+    versions: Mapping[str, str]
+    mesh: MeshFacts | None
+    pattern: PatternFacts | None
+    parts: Mapping[str, PartFacts]
+    fit: FitFacts | None
+    checks: tuple[Check, ...]
+    seconds: Mapping[str, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name in ("versions", "parts", "seconds"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+    @property
+    def ok(self) -> bool:
+        """True when at least one check ran and none failed."""
+        return any(check.ok for check in self.checks) and not any(check.failed for check in self.checks)
+
+
+def report_json(report: Report) -> str:
+    """Return the report as JSON text: keys in the order of the contract, six digits, a newline at the end.
+
+    Numbers that JSON has no word for, NaN and the infinities, become null.
+    """
+    content = {
+        "name": report.name,
+        "ok": report.ok,
+        "config_sha256": report.config_sha256,
+        "versions": report.versions,
+        "mesh": report.mesh,
+        "pattern": report.pattern,
+        "parts": report.parts,
+        "fit": report.fit,
+        "checks": [_check_entry(check) for check in report.checks],
+        "seconds": report.seconds,
+    }
+    return json.dumps(_plain(content), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+
+
+def _check_entry(check: Check) -> dict[str, object]:
+    return {
+        "code": check.code,
+        "ok": check.ok,
+        "skipped": check.skipped,
+        "message": check.message,
+        "where": check.where,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """Return a value in dicts, lists and numbers that JSON can hold."""
+    if is_dataclass(value):
+        return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return _plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return _rounded(value) if isinstance(value, float) else value
+
+
+def _rounded(number: float) -> float | None:
+    return float(f"{number:.{DIGITS}g}") if math.isfinite(number) else None

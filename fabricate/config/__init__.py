@@ -1,0 +1,34 @@
+"""Everything a run can be asked: each key with default, bounds and one line of meaning; and reading it."""
+
+from fabricate.config.config import Config
+from fabricate.config.loading import load_config
+from fabricate.config.pattern_config import PatternConfig
+from fabricate.config.process_config import ProcessConfig
+from fabricate.config.resolved import config_sha256, resolved_toml
+from fabricate.config.solid_config import SolidConfig
+from fabricate.config.source_config import (
+    CubeConfig,
+    FileConfig,
+    FrameConfig,
+    KnotConfig,
+    SourceConfig,
+    SphereConfig,
+    TorusConfig,
+)
+
+__all__ = [
+    "Config",
+    "CubeConfig",
+    "FileConfig",
+    "FrameConfig",
+    "KnotConfig",
+    "PatternConfig",
+    "ProcessConfig",
+    "SolidConfig",
+    "SourceConfig",
+    "SphereConfig",
+    "TorusConfig",
+    "config_sha256",
+    "load_config",
+    "resolved_toml",
+]

@@ -1,0 +1,86 @@
+"""What is wrong with a config, in one sentence: the key, what was expected and what was found."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+from typing import Any, Literal, NamedTuple, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from fabricate.config.expectation import expectation
+from fabricate.config.keys import SECTIONS, keys_of, nearest_key
+from fabricate.config.source_config import SHAPES
+
+
+class Complaint(NamedTuple):
+    """A dotted key or the name of a section, and the sentence about it."""
+
+    key: str
+    sentence: str
+
+
+def first_complaint(error: ValidationError, document: Mapping[str, Any]) -> Complaint:
+    """Return the first mistake in a document; unknown keys come before missing ones."""
+    details = min(error.errors(include_url=False), key=lambda each: each["type"] != "extra_forbidden")
+    if details["type"] == "wrong_value":
+        return Complaint(details["ctx"]["key"], details["msg"])
+    section, *inner = (str(step) for step in details["loc"])
+    if not inner:
+        return _wrong_section(section, document)
+    # Inside [source] the location also names the member of the union.
+    models = {model.__name__: model for model in SECTIONS[section]}
+    model = models[inner[0]] if section == "source" else SECTIONS[section][0]
+    return Complaint(f"{section}.{inner[-1]}", _wrong_key(section, inner[-1], model, details))
+
+
+def _wrong_section(section: str, document: Mapping[str, Any]) -> Complaint:
+    if section not in SECTIONS:
+        hint = nearest_key(section, {known: known for known in SECTIONS})
+        return Complaint(section, f"unknown section or key{hint}")
+    found = document.get(section, {})
+    if not isinstance(found, dict):
+        return Complaint(section, f"expected a section [{section}], found {_shown(found)}")
+    # All else that can be wrong with a whole section is that [source] asks for no known source.
+    if "shape" in found:
+        choices = ", ".join(f'"{shape}"' for shape in SHAPES)
+        return Complaint("source.shape", f"expected one of {choices}, found {_found(found['shape'], SHAPES)}")
+    known = keys_of(section)
+    unknown = next((key for key in found if key not in known), None)
+    if unknown is not None:
+        return Complaint(f"{section}.{unknown}", f"unknown key{nearest_key(unknown, known)}")
+    return Complaint(section, 'expected shape = "..." or path = "...", found neither')
+
+
+def _wrong_key(section: str, key: str, model: type[BaseModel], details: ErrorDetails) -> str:
+    if details["type"] == "extra_forbidden":
+        known = keys_of(section)
+        return _foreign_key(key, model) if key in known else f"unknown key{nearest_key(key, known)}"
+    if details["type"] == "value_error":
+        return str(details["ctx"]["error"])
+    field = model.model_fields[key]
+    choices = get_args(field.annotation) if get_origin(field.annotation) is Literal else ()
+    return f"expected {expectation(field)}, found {_found(details['input'], choices)}"
+
+
+def _foreign_key(key: str, model: type[BaseModel]) -> str:
+    """Say whose key this is: it stands beside a shape or a path that has no such key."""
+    if key == "shape":
+        return "expected either shape or path, not both: remove one of them"
+    owners = " or ".join(f'"{shape}"' for shape, owner in SHAPES.items() if key in owner.model_fields)
+    own = ", ".join(name for name in model.model_fields if name != "shape")
+    return f"belongs to shape = {owners}; the keys here are {own}"
+
+
+def _found(value: object, choices: Iterable[str]) -> str:
+    """Return a value, and a hint at the choice most like it when one is."""
+    close = get_close_matches(str(value).lower(), choices, n=1)
+    return _shown(value) + (f'; did you mean "{close[0]}"?' if close else "")
+
+
+def _shown(value: object) -> str:
+    """Return a value about as TOML shows it, cut to a length that can be read."""
+    text = json.dumps(value, ensure_ascii=False, default=str)
+    return text if len(text) <= 80 else text[:77] + "..."

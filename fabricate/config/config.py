@@ -1,0 +1,53 @@
+"""The whole config: its four sections, and what they owe each other."""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic_core import PydanticCustomError
+
+from fabricate.config.pattern_config import PatternConfig
+from fabricate.config.process_config import ProcessConfig, with_process_defaults
+from fabricate.config.section import wrong_value
+from fabricate.config.solid_config import SolidConfig
+from fabricate.config.source_config import Source
+from fabricate.units import format_length
+
+
+class Config(BaseModel):
+    """One run: what to divide, the curve, the parts and how they are made. Lengths in mm."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    source: Source
+    """What to divide: a built-in shape, or a mesh file."""
+    pattern: PatternConfig = PatternConfig()
+    """The curve."""
+    solid: SolidConfig = SolidConfig()
+    """The parts."""
+    process: ProcessConfig = ProcessConfig()
+    """How the parts are made: defaults and limits."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_from_process(cls, data: object) -> object:
+        return with_process_defaults(data)
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        size, solid, tile = self.source.size, self.solid, self.pattern.tile_size
+        if solid.thickness >= size / 2:
+            limit = f"less than half the size, {format_length(size / 2)}"
+            raise _too_large("solid.thickness", solid.thickness, limit)
+        if solid.clearance >= 4 * solid.thickness:
+            limit = f"less than four times the thickness, {format_length(4 * solid.thickness)}"
+            raise _too_large("solid.clearance", solid.clearance, limit)
+        if tile is not None and tile > size:
+            limit = f"a tile that is not larger than the body, {format_length(size)}"
+            raise _too_large("pattern.tile_size", tile, limit)
+        return self
+
+
+def _too_large(key: str, found: float, expected: str) -> PydanticCustomError:
+    return wrong_value(key, f'expected {expected}, found "{format_length(found)}"')

@@ -1,0 +1,40 @@
+"""Every section and key that a config may have, and the one that a mistyped key was meant to be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from types import MappingProxyType
+from typing import get_args
+
+from fabricate.config.pattern_config import PatternConfig
+from fabricate.config.process_config import ProcessConfig
+from fabricate.config.section import Section
+from fabricate.config.solid_config import SolidConfig
+from fabricate.config.source_config import SourceConfig
+
+SECTIONS: Mapping[str, tuple[type[Section], ...]] = MappingProxyType(
+    {
+        "source": get_args(SourceConfig),
+        "pattern": (PatternConfig,),
+        "solid": (SolidConfig,),
+        "process": (ProcessConfig,),
+    }
+)
+"""Every section and the models it may take."""
+
+
+def keys_of(section: str) -> dict[str, str]:
+    """Return the dotted form of each key of a section; nothing for a section that does not exist."""
+    models = SECTIONS.get(section, ())
+    return {key: f"{section}.{key}" for model in models for key in model.model_fields}
+
+
+def nearest_key(key: str, first: Mapping[str, str]) -> str:
+    """Return a hint at the key most like this one: among the first ones if any is, else in any section."""
+    everywhere = {tail: dotted for section in SECTIONS for tail, dotted in keys_of(section).items()}
+    for known in (first, everywhere):
+        close = get_close_matches(key.lower(), known, n=1)
+        if close:
+            return f"; did you mean {known[close[0]]}?"
+    return f"; known here: {', '.join((first or everywhere).values())}"

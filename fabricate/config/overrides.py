@@ -1,0 +1,55 @@
+"""Settings from the command line, such as "solid.thickness=2mm", laid over what a config file says."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any, NamedTuple
+
+from fabricate.config.keys import keys_of, nearest_key
+from fabricate.errors import ConfigError
+
+_REPLACES = {
+    "pattern.levels": "tile_size",
+    "pattern.tile_size": "levels",
+    "source.shape": "path",
+    "source.path": "shape",
+}
+
+
+class Setting(NamedTuple):
+    """A dotted key that exists, and the value it is to have."""
+
+    key: str
+    value: object
+
+
+def parse_setting(override: str) -> Setting:
+    """Split "section.key=value"; the value is TOML where it can be read as such and plain text otherwise.
+
+    Raises
+    ------
+    ConfigError
+        If there is no "=", or no such key; names the nearest one.
+    """
+    key, equals, text = (part.strip() for part in override.partition("="))
+    if not equals:
+        raise ConfigError(f'--set: expected key=value such as solid.thickness=2mm, found "{override}"')
+    section, _, name = key.partition(".")
+    known = keys_of(section)
+    if name not in known:
+        raise ConfigError(f"--set: {key}: unknown key{nearest_key(name or key, known)}")
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return Setting(key, text)
+    return Setting(key, parsed["value"] if len(parsed) == 1 else text)
+
+
+def with_setting(document: dict[str, Any], setting: Setting) -> dict[str, Any]:
+    """Return the raw config with one key set, and without the key that it is an alternative to."""
+    section, _, name = setting.key.partition(".")
+    table = document.get(section, {})
+    if not isinstance(table, dict):
+        return document  # validation says that a section was expected
+    kept = {other: found for other, found in table.items() if other != _REPLACES.get(setting.key)}
+    return {**document, section: {**kept, name: setting.value}}

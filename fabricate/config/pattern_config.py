@@ -1,0 +1,36 @@
+"""The section [pattern]: how the curve runs."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from fabricate.config.length import Length
+from fabricate.config.section import Section, wrong_value
+
+
+class PatternConfig(Section):
+    """The curve: one closed line that winds over the whole surface."""
+
+    tile_size: Annotated[Length, Field(gt=0)] | None = 7.0
+    """Side of the square tiles that the curve runs through; instead of levels."""
+    levels: Annotated[int, Field(ge=0, le=12)] | None = Field(default=None, examples=[2])
+    """How often the quads are divided in four; instead of tile_size."""
+    tree: Literal["random", "breadth-first", "depth-first"] = "random"
+    """Spanning tree that the yellow region grows along."""
+    seed: Annotated[int, Field(ge=0)] = 0
+    """Another seed gives another random tree, the same seed always the same."""
+    arc: Annotated[float, Field(gt=0.293, lt=0.707)] = 0.5
+    """Where the curve crosses tile edges, from the yellow end; more gives yellow a larger share."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _levels_replace_the_default(cls, data: object) -> object:
+        return {"tile_size": None, **data} if isinstance(data, dict) and "levels" in data else data
+
+    @model_validator(mode="after")
+    def _one_of_two(self) -> Self:
+        if (self.levels is None) == (self.tile_size is None):
+            raise wrong_value("pattern.levels", "expected either tile_size or levels, not both: remove one")
+        return self

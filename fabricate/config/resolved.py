@@ -1,0 +1,19 @@
+"""The resolved config: what is kept beside the results, and the digest that names what was asked."""
+
+from __future__ import annotations
+
+import hashlib
+
+import tomli_w
+
+from fabricate.config.config import Config
+
+
+def resolved_toml(config: Config) -> str:
+    """Return the config as TOML with every default filled in; reading it gives an equal config."""
+    return tomli_w.dumps(config.model_dump(mode="json", exclude_none=True))
+
+
+def config_sha256(config: Config) -> str:
+    """Return the SHA-256 of the resolved TOML in hexadecimal: the same for configs that mean the same."""
+    return hashlib.sha256(resolved_toml(config).encode()).hexdigest()

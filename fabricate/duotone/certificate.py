@@ -1,0 +1,94 @@
+"""Proof that a duotone is one curve between two connected regions, counted from the tiles themselves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
+
+from fabricate.arrays import Indices, Mask
+from fabricate.duotone.curve import count_curves
+from fabricate.duotone.duotone import Duotone
+
+
+@dataclass(frozen=True)
+class RegionFacts:
+    """Topology of one colour: connected components, Euler characteristic, handles in all."""
+
+    components: int
+    euler_characteristic: int
+    handles: int
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What was counted, and whether it is a duotone.
+
+    Attributes
+    ----------
+    curves : int
+        Closed curves between the colours; 1 is right.
+    yellow, blue : RegionFacts
+        Each must be one component; both are bounded by the same curves.
+    genus : int
+        Of the whole surface: chi adds up over the regions, so with one boundary circle each,
+        (1 - 2 g_yellow) + (1 - 2 g_blue) = 2 - 2 g and the handles share the genus.
+    """
+
+    curves: int
+    yellow: RegionFacts
+    blue: RegionFacts
+    genus: int
+
+    @property
+    def holds(self) -> bool:
+        """One curve, two connected regions, and handles that add up to the genus."""
+        return (
+            self.curves == 1
+            and self.yellow.components == 1
+            and self.blue.components == 1
+            and self.yellow.handles + self.blue.handles == self.genus
+        )
+
+
+def certified(duotone: Duotone) -> Certificate:
+    """Count curves, components and Euler characteristics; nothing is assumed of how the tiles were chosen.
+
+    Each tile corner owns a sector of its tile. Sectors of equal colour are glued across tile sides, and
+    across a tile where it is joined: the classes are the regions' connected components.
+    """
+    curves = count_curves(duotone)
+    labels = _sector_components(duotone)
+    is_yellow = np.arange(len(labels)) % 2 == 0
+    yellow = _facts(duotone, labels[is_yellow], duotone.quads.yellow, duotone.joined, curves)
+    blue = _facts(duotone, labels[~is_yellow], ~duotone.quads.yellow, ~duotone.joined, curves)
+    return Certificate(curves, yellow, blue, duotone.quads.genus)
+
+
+def _sector_components(duotone: Duotone) -> Indices:
+    """Return a component label for each sector 4 t + k."""
+    sectors = np.arange(len(duotone.quads.twins))
+    beyond = duotone.quads.twins
+    across = beyond + 1 - 4 * (beyond % 4 == 3)
+    crossing = 4 * np.arange(len(duotone.joined)) + ~duotone.joined
+    rows = np.concatenate([sectors, crossing])
+    columns = np.concatenate([across, crossing + 2])
+    glue = csr_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(len(sectors), len(sectors)))
+    labels: Indices = connected_components(glue, directed=False)[1]
+    return labels
+
+
+def _facts(duotone: Duotone, labels: Indices, own: Mask, joined: Mask, curves: int) -> RegionFacts:
+    """Euler characteristic of one colour's cell complex, and the handles that follow from it.
+
+    Cells: its own points and one crossing per tile side; its part of each tile side and two arcs per
+    tile; one piece in a tile joined in its colour, two elsewhere.
+    """
+    tiles = len(duotone.joined)
+    sides = len(duotone.quads.twins) // 2
+    pieces = 2 * tiles - int(joined.sum())
+    euler = (int(own.sum()) + sides) - (sides + 2 * tiles) + pieces
+    components = int(np.count_nonzero(np.bincount(labels)))
+    return RegionFacts(components, euler, (2 * components - curves - euler) // 2)

@@ -1,0 +1,130 @@
+"""Quads whose corners alternate between yellow and blue: the mesh that carries the tiles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+from fabricate.arrays import Floats, Indices, Mask, frozen
+from fabricate.errors import PatternError
+from fabricate.mesh.half_edges import HalfEdges, half_edges
+from fabricate.mesh.polygon_mesh import PolygonMesh
+
+
+@dataclass(frozen=True, eq=False)
+class QuadMesh:
+    r"""A closed mesh of two-coloured quads; each quad is one Truchet tile.
+
+    Every tile lists its corners counter-clockwise seen from outside and begins at a yellow one:
+
+        b3 --<-- y2             half-edge 4 t + k is side k of tile t,
+         |   2    |             from corner k to corner (k + 1) mod 4;
+         v 3 t  1 ^             sides 0 and 2 run from yellow to blue,
+         |   0    |             sides 1 and 3 from blue to yellow
+        y0 -->-- b1
+
+    Attributes
+    ----------
+    points : (n, 3) float
+        Control points, mm.
+    tiles : (t, 4) int
+        Corners: yellow, blue, yellow, blue.
+    twins : (4 t,) int
+        The half-edge on the other side of each half-edge.
+    yellow : (n,) bool
+        True at yellow points, False at blue ones.
+    """
+
+    points: Floats
+    tiles: Indices
+    twins: Indices
+    yellow: Mask
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", frozen(self.points, np.float64, (None, 3)))
+        object.__setattr__(self, "tiles", frozen(self.tiles, np.int64, (None, 4)))
+        object.__setattr__(self, "twins", frozen(self.twins, np.int64, (4 * len(self.tiles),)))
+        object.__setattr__(self, "yellow", frozen(self.yellow, np.bool_, (len(self.points),)))
+
+    @property
+    def half_edges(self) -> HalfEdges:
+        """The same connectivity as for any polygon mesh."""
+        h = np.arange(4 * len(self.tiles))
+        following = h + 1 - 4 * (h % 4 == 3)
+        preceding = h - 1 + 4 * (h % 4 == 0)
+        return HalfEdges(self.tiles.ravel(), following, preceding, h // 4, self.twins)
+
+    @property
+    def genus(self) -> int:
+        """Number of handles, from Euler's formula V - 2 T + T = 2 - 2 g."""
+        return (2 - len(self.points) + len(self.tiles)) // 2
+
+
+def two_coloured(mesh: PolygonMesh) -> QuadMesh:
+    """Return a closed pure quad mesh as it is, with its points coloured yellow and blue in turn.
+
+    Point 0 becomes yellow. Points keep their numbers; each quad is turned to begin at a yellow corner.
+
+    Raises
+    ------
+    PatternError
+        If a face is not a quad, or if the points cannot be coloured; then an odd cycle is named.
+    """
+    sizes = mesh.face_sizes
+    if (sizes != 4).any():
+        face = int(np.argmax(sizes != 4))
+        raise PatternError(
+            f"levels = 0 needs a mesh of quads only, found {int((sizes != 4).sum())} other faces, "
+            f"the first is face {face} with {sizes[face]} corners; use levels = 1 or more"
+        )
+    connectivity = half_edges(mesh)
+    tail, head = connectivity.tail, connectivity.tail[connectivity.following]
+    yellow = _colours(tail, head, len(mesh.points))
+    quads = mesh.corners.reshape(-1, 4)
+    turned = ~yellow[quads[:, 0]]
+    sides = np.arange(len(mesh.corners)).reshape(-1, 4)
+    sides = np.where(turned[:, None], np.roll(sides, -1, axis=1), sides).ravel()
+    renumbered = np.zeros_like(sides)
+    renumbered[sides] = np.arange(len(sides))
+    twins = renumbered[connectivity.twin[sides]]
+    return QuadMesh(mesh.points, mesh.corners[sides].reshape(-1, 4), twins, yellow)
+
+
+def _colours(tail: Indices, head: Indices, count: int) -> Mask:
+    """Return which points share point 0's colour, by the bipartite double cover of the edge graph.
+
+    The cover has two copies of every point and joins opposite copies along edges: a graph is bipartite
+    exactly when no point is connected to its own other copy.
+    """
+    rows = np.concatenate([tail, tail + count])
+    columns = np.concatenate([head + count, head])
+    cover = coo_array((np.ones(len(rows)), (rows, columns)), shape=(2 * count, 2 * count))
+    labels = connected_components(cover, directed=False)[1]
+    if (labels[:count] == labels[count:]).any():
+        cycle = _odd_cycle(tail, head, count)
+        names = " - ".join(str(point) for point in [*cycle, cycle[0]])
+        raise PatternError(
+            f"the quads cannot be coloured in two colours: points {names} form an odd cycle of "
+            f"{len(cycle)} edges; use levels = 1 or more"
+        )
+    same: Mask = labels[:count] == labels[0]
+    return same
+
+
+def _odd_cycle(tail: Indices, head: Indices, count: int) -> list[int]:
+    """Return the points of one odd cycle: an edge between equal depths closes two tree paths."""
+    graph = coo_array((np.ones(len(tail)), (tail, head)), shape=(count, count)).tocsr()
+    order, parent = breadth_first_order(graph, 0, directed=False)
+    depth = np.zeros(count, dtype=np.int64)
+    for point in order[1:]:
+        depth[point] = depth[parent[point]] + 1
+    odd = np.flatnonzero(depth[tail] == depth[head])
+    first = odd[np.argmin(depth[tail[odd]])]
+    left, right = [int(tail[first])], [int(head[first])]
+    while left[-1] != right[-1]:
+        left.append(int(parent[left[-1]]))
+        right.append(int(parent[right[-1]]))
+    return left + right[-2::-1]

@@ -1,0 +1,1 @@
+"""Closed polygon meshes: the record, shapes made by formula, reading files, testing, sizing."""

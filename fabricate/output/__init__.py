@@ -1,0 +1,1 @@
+"""Writers: meshes, pictures and curves as files, whole or not at all."""

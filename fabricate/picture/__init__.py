@@ -1,0 +1,1 @@
+"""Stills of finished parts: rays and shading, no OpenGL."""

@@ -1,0 +1,1 @@
+"""Regions made into solids: inner surface, walls, clearance, parts."""

@@ -1,0 +1,140 @@
+"""Parts put together from layers: which triangles on which layer bound which part.
+
+Layers lie one under the other, each with a copy for either part; between the facing copies is the gap:
+
+      outer yellow  |  outer blue        core = "hollow": each part is its region between the outer and
+        |  wall     |   wall |           the inner layer. core = "blue": blue goes on under yellow, down
+      inner yellow  |  inner blue        to the floor, a copy of yellow's inner surface deeper by the
+     ---- floor ---------- |             clearance, and has no inner surface of its own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from fabricate.arrays import Floats, Indices, frozen
+from fabricate.solid.layers import flipped, layer, wall
+from fabricate.solid.part import Part
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.normals import unit
+
+Core: TypeAlias = Literal["hollow", "yellow", "blue"]
+
+
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """All layers' points in one array, and closed triangle meshes on them.
+
+    Number p stands for the surface point `p % surface_points` on some layer. Without clearance both parts
+    use the same numbers along the wall, so their faces there are the same to the last bit.
+
+    Attributes
+    ----------
+    points : (k, 3) float
+        float32-exact, mm.
+    yellow, blue : (m, 3) int
+        The two parts, outward-oriented.
+    gap : (m, 3) int
+        The space between the parts, outward-oriented; empty when the clearance is zero.
+    shell : (m, 3) int
+        The whole, uncut.
+    surface_points : int
+        Number of points of the surface.
+    """
+
+    points: Floats
+    yellow: Indices
+    blue: Indices
+    gap: Indices
+    shell: Indices
+    surface_points: int
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", frozen(self.points, np.float64, (None, 3)))
+        for name in ("yellow", "blue", "gap", "shell"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.int64, (None, 3)))
+
+    @property
+    def parts(self) -> tuple[Part, Part]:
+        """The yellow and the blue part."""
+        return self._part("yellow", self.yellow), self._part("blue", self.blue)
+
+    @property
+    def spaces(self) -> tuple[Part, Part]:
+        """The gap and the uncut shell, as closed meshes."""
+        return self._part("gap", self.gap), self._part("shell", self.shell)
+
+    def _part(self, name: str, triangles: Indices) -> Part:
+        used = np.zeros(len(self.points), dtype=bool)
+        used[triangles] = True
+        number = np.cumsum(used) - 1
+        return Part(name, self.points[used], number[triangles])
+
+
+class _Blocks(NamedTuple):
+    """Where each layer's points begin in the array."""
+
+    outer: int
+    inner: int
+    floor: int
+
+
+def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core) -> Assembly:
+    """Build both parts between the surface and the points `inner`, (n, 3), one under each of its points, mm."""
+    n = len(surface.points)
+    down = unit(inner - surface.points)
+    outer, inner_layer = (layer(surface, p, down, clearance=clearance) for p in (surface.points, inner))
+    blocks = [outer.yellow, inner_layer.yellow]
+    yellow_at = blue_at = whole_at = _Blocks(0, n, n)
+    if clearance > 0.0:
+        blocks += [outer.blue, inner_layer.blue, surface.points, inner]
+        yellow_at, blue_at, whole_at = _Blocks(0, n, 6 * n), _Blocks(2 * n, 3 * n, 7 * n), _Blocks(4 * n, 5 * n, 5 * n)
+    if clearance > 0.0 and core != "hollow":
+        floor = layer(surface, inner + clearance * down, down, clearance=clearance)
+        blocks += [floor.yellow, floor.blue]
+    yellow_outside, yellow_facing = _faces(surface, yellow_at, surface.yellow, core, own="yellow")
+    blue_outside, blue_facing = _faces(surface, blue_at, ~surface.yellow, core, own="blue")
+    return Assembly(
+        np.concatenate(blocks).astype(np.float32).astype(np.float64) + 0.0,  # -0.0 becomes 0.0
+        np.concatenate([yellow_outside, yellow_facing]),
+        np.concatenate([blue_outside, blue_facing]),
+        _gap(surface, yellow_at, blue_at, np.concatenate([yellow_facing, blue_facing]), core)
+        if clearance > 0.0
+        else np.zeros((0, 3), dtype=np.int64),
+        _shell(surface, whole_at, core),
+        n,
+    )
+
+
+def _faces(
+    surface: CutSurface, at: _Blocks, region: np.ndarray, core: Core, *, own: Literal["yellow", "blue"]
+) -> tuple[Indices, Indices]:
+    """Return a part's triangles towards the outside and the inside, and those that face the other part."""
+    mine, other = surface.triangles[region], surface.triangles[~region]
+    rings = [at.outer, at.inner] if core != own or at.inner == at.floor else list(at)
+    walls = np.concatenate(
+        [wall(surface.curve, lower, upper) for upper, lower in zip(rings, rings[1:], strict=False)]
+    )
+    walls = walls if own == "yellow" else flipped(walls)
+    under = flipped(mine) + at.inner
+    if core == own:
+        return mine + at.outer, np.concatenate([walls, other + at.floor])
+    if core == "hollow":
+        return np.concatenate([mine + at.outer, under]), walls
+    return mine + at.outer, np.concatenate([walls, under])
+
+
+def _gap(surface: CutSurface, yellow: _Blocks, blue: _Blocks, facing: Indices, core: Core) -> Indices:
+    """Return the gap's boundary: the parts' facing triangles turned round, and the strips that close it."""
+    strips = [wall(surface.curve, blue.outer, yellow.outer)]
+    if core == "hollow":
+        strips.append(wall(surface.curve, yellow.inner, blue.inner))
+    return np.concatenate([flipped(facing), *strips])
+
+
+def _shell(surface: CutSurface, at: _Blocks, core: Core) -> Indices:
+    outside = surface.triangles + at.outer
+    return np.concatenate([outside, flipped(surface.triangles) + at.inner]) if core == "hollow" else outside

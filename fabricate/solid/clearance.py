@@ -1,0 +1,148 @@
+"""Clearance: how far each part's own copy of the curve moves aside, along the rays of the tiles.
+
+Facing walls end up `clearance` apart when the yellow copy moves to one side and the blue one to the other, half of it
+each, measured across the curve. Where one side has little room, the other gives more. Where the copies still come too
+near each other, as in the bends of small or slanted tiles, they are pushed further until they do not. Moving along rays
+keeps every point on the surface and can't fold it (see `surface.template`).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import igl
+import numpy as np
+
+from fabricate.arrays import Floats, Indices, Mask
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.normals import unit
+
+ROOMY = 2.0
+"""A side at least this many clearances wide gives its half."""
+
+FARTHEST = 0.95
+"""The largest share of its ray that a copy moves."""
+
+STEEPEST = 0.3
+"""Smallest cosine between a ray and the way straight across the curve that is made up for."""
+
+LEAST_UPRIGHT = 0.5
+"""Smallest cosine of a leaning wall that is made up for."""
+
+WANTED = 1.0
+"""Share of the clearance below which two copies are pushed further apart."""
+
+ROUNDS, PUSH = 40, 1.15
+"""Rounds of measuring and pushing, and by how much a push lengthens the way."""
+
+SMOOTHING = 4
+"""Passes over values along the curve, so that they change gently."""
+
+
+class RaySides(NamedTuple):
+    """The halves of the rays on either side of the curve, each from the curve outwards, (c, m + 1, 3) float, mm."""
+
+    yellow: Floats
+    blue: Floats
+
+
+class Shares(NamedTuple):
+    """How much of its half-ray each copy of the curve moves along, between 0 and 0.95, (c,) float."""
+
+    yellow: Floats
+    blue: Floats
+
+
+def ray_sides(surface: CutSurface, points: Floats) -> RaySides:
+    """Return the half-rays through each curve point when the surface's points lie at `points`, (n, 3)."""
+    rays = points[surface.curve_rays]
+    middle = rays.shape[1] // 2
+    return RaySides(rays[:, middle:], rays[:, middle::-1])
+
+
+def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearance: float) -> Shares:
+    """Return how far to move each copy, for a clearance in mm.
+
+    `normals` and `down`, (c, 3), are unit vectors at the curve's points: the surface's, and the way the wall
+    goes from there. Where even the farthest move is not enough, the gap stays smaller; the tests of the
+    parts find it.
+    """
+    wanted = clearance / _uprightness(sides.yellow[:, 0], normals, down)
+    lengths = [_length(side) for side in sides]
+    slants = _slants(sides, normals)
+    room = np.maximum(np.stack([length * slant for length, slant in zip(lengths, slants, strict=True)]), 1e-9)
+    crowded = np.clip(ROOMY - room.min(axis=0) / wanted, 0.0, 1.0)
+    part = _smoothed(0.5 + crowded * (room[0] / room.sum(axis=0) - 0.5))
+    way = wanted * np.stack([part, 1.0 - part]) / room
+    suspects = np.arange(len(normals))
+    for _ in range(ROUNDS):
+        shares = Shares(*np.minimum(way, FARTHEST))
+        near = too_near(sides, shares, WANTED * wanted, suspects=suspects) & (way < FARTHEST).any(axis=0)
+        if not near.any():
+            break
+        pushed = _smoothed(near.astype(np.float64))
+        way = way * (1.0 + (PUSH - 1.0) * np.minimum(2.0 * pushed, 1.0))
+        suspects = np.flatnonzero(pushed)
+    return shares
+
+
+def _uprightness(curve: Floats, normals: Floats, down: Floats) -> Floats:
+    """Return the cosine by which walls that lean across the curve are nearer than their copies of the curve."""
+    tangent = unit(np.roll(curve, -1, axis=0) - np.roll(curve, 1, axis=0))
+    lean = np.einsum("ij,ij->i", down, np.cross(normals, tangent))
+    return _smoothed(np.sqrt(np.maximum(1.0 - lean**2, LEAST_UPRIGHT**2)))
+
+
+def along(side: Floats, shares: Floats) -> Floats:
+    """Return the points at the given shares of the length of each half-ray; (c, k) shares give (c, k, 3)."""
+    steps = np.linalg.norm(np.diff(side, axis=1), axis=2)
+    reached = np.concatenate([np.zeros((len(side), 1)), np.cumsum(steps, axis=1)], axis=1)
+    wanted = shares * reached[:, -1:]
+    result = np.repeat(side[:, :1], shares.shape[1], axis=1)
+    for k in range(steps.shape[1]):
+        part = np.clip((wanted - reached[:, k : k + 1]) / np.maximum(steps[:, k : k + 1], 1e-12), 0.0, 1.0)
+        result += part[:, :, None] * (side[:, None, k + 1] - side[:, None, k])
+    return result
+
+
+def _length(side: Floats) -> Floats:
+    length: Floats = np.linalg.norm(np.diff(side, axis=1), axis=2).sum(axis=1)
+    return length
+
+
+def _slants(sides: RaySides, normals: Floats) -> tuple[Floats, Floats]:
+    """Return for each side the smaller cosine between its rays and the conormals of the neighbouring segments."""
+    curve = sides.yellow[:, 0]
+    after = unit(np.cross(normals, np.roll(curve, -1, axis=0) - curve))
+    before = unit(np.cross(normals, curve - np.roll(curve, 1, axis=0)))
+    slants = []
+    for side, sign in ((sides.yellow, 1.0), (sides.blue, -1.0)):
+        first = sign * unit(side[:, 1] - side[:, 0])
+        cosine = np.minimum(np.einsum("ij,ij->i", first, after), np.einsum("ij,ij->i", first, before))
+        slants.append(np.clip(cosine, STEEPEST, 1.0))
+    return slants[0], slants[1]
+
+
+def too_near(sides: RaySides, shares: Shares, least: Floats, *, suspects: Indices) -> Mask:
+    """Return at which of the suspected curve points, or midway to the next, the copies are nearer than `least`."""
+    copies = [along(side, share[:, None])[:, 0] for side, share in zip(sides, shares, strict=True)]
+    count = len(copies[0])
+    pieces = np.stack([np.arange(count), (np.arange(count) + 1) % count], axis=1)
+    near: Mask = np.zeros(count, dtype=bool)
+    for own, other in (copies, copies[::-1]):
+        tree = igl.AABB()
+        tree.init(other, pieces)
+        middle = 0.5 * (own[suspects] + own[(suspects + 1) % count])
+        squared = tree.squared_distance(other, pieces, np.concatenate([own[suspects], middle]))[0]
+        at_point, at_middle = np.asarray(squared).reshape(2, -1) < least[suspects] ** 2
+        near[suspects[at_point]] = True
+        near[suspects[at_middle]] = True
+        near[(suspects[at_middle] + 1) % count] = True
+    return near
+
+
+def _smoothed(values: Floats) -> Floats:
+    """Return the values along the closed curve, averaged with their neighbours a few times."""
+    for _ in range(SMOOTHING):
+        values = 0.5 * values + 0.25 * (np.roll(values, 1) + np.roll(values, -1))
+    return values

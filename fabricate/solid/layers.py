@@ -1,0 +1,75 @@
+"""Layers: the surfaces that a part is made of, and the closed triangle mesh that joins them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fabricate.arrays import Floats, Indices
+from fabricate.solid.clearance import along, clearance_shares, ray_sides
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.normals import vertex_normals
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """Where the surface's points lie at one depth, once for each part: (n, 3) float, mm.
+
+    The two copies differ by the clearance along the curve, and less and less away from it.
+    """
+
+    yellow: Floats
+    blue: Floats
+
+
+def layer(surface: CutSurface, points: Floats, down: Floats, *, clearance: float) -> Layer:
+    """Return the two copies of the surface moved to `points`, apart by the clearance along the curve.
+
+    In each copy the curve has moved along its rays, and the rest of the rays has closed up behind it. `down`,
+    (n, 3), are unit vectors along the wall under each point.
+    """
+    if clearance == 0.0:
+        return Layer(points, points)
+    normals = vertex_normals(points, surface.triangles)[surface.curve]
+    sides = ray_sides(surface, points)
+    shares = clearance_shares(sides, normals, down[surface.curve], clearance=clearance)
+    rays = surface.curve_rays
+    middle = rays.shape[1] // 2
+    numbers = (rays[:, middle:], rays[:, middle::-1])
+    copies = []
+    for side, share, number in zip(sides, shares, numbers, strict=True):
+        copy = points.copy()
+        copy[number] = _closed_up(side, share)
+        copies.append(copy)
+    return Layer(*copies)
+
+
+def _closed_up(side: Floats, share: Floats) -> Floats:
+    """Return the half-rays' points, (c, m + 1, 3), moved on so that they begin at `share` of the length."""
+    steps = np.linalg.norm(np.diff(side, axis=1), axis=2)
+    reached = np.concatenate([np.zeros((len(side), 1)), np.cumsum(steps, axis=1)], axis=1)
+    fraction = reached / np.maximum(reached[:, -1:], np.finfo(float).tiny)
+    return along(side, share[:, None] + (1.0 - share[:, None]) * fraction)
+
+
+def wall(curve: Indices, lower: int, upper: int) -> Indices:
+    r"""Return the triangles between two copies of the closed curve, facing right of the curve.
+
+    `upper` and `lower` are added to the curve's numbers for the copy nearer to the outer surface and
+    the one further in. Every cell is split along the diagonal from the upper start to the lower end, so
+    that walls of different parts that face each other are split alike:
+
+        u0 -->-- u1        outside
+        |   \    |
+        l0 ------ l1       inside
+    """
+    here, ahead = curve, np.roll(curve, -1)
+    first = np.stack([ahead + upper, here + upper, ahead + lower], axis=1)
+    second = np.stack([here + upper, here + lower, ahead + lower], axis=1)
+    return np.concatenate([first, second])
+
+
+def flipped(triangles: Indices) -> Indices:
+    """Return the triangles facing the other way."""
+    return triangles[:, ::-1]

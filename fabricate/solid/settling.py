@@ -1,0 +1,83 @@
+"""Settling: tiles too small for the clearance grow at the cost of the larger ones around them.
+
+A cage's smallest faces, at an eye or a nostril, can be hardly wider than the gap, and no way of moving the curve makes
+room there. The control points of such tiles slide, within the surface's tangent plane, towards the mean of their
+neighbours until the clearance fits. The surface stays a smooth Catmull-Clark limit, and everything but the
+neighbourhood of such tiles stays where it was.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.sparse import coo_array
+
+from fabricate.arrays import Floats, Mask
+from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.solid.clearance import clearance_shares, ray_sides, too_near
+from fabricate.surface.cut import CutSurface, cut
+from fabricate.surface.limit import LimitSurface
+from fabricate.surface.normals import unit
+
+ENOUGH = 0.99
+"""Share of the clearance that copies of the curve must be apart."""
+
+BENEATH = 0.08
+"""The clearance must fit on the surface and this far below it, mm: a wall is at least as thick."""
+
+ROUNDS, STEP = 40, 0.25
+"""Rounds of measuring and sliding, and the share of the way to the mean that points move in each."""
+
+
+def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) -> CutSurface:
+    """Return the cut surface of the duotone, its tiles slid where the clearance, mm, does not fit."""
+    quads = duotone.quads
+    surface = cut(duotone, LimitSurface.of(quads), arc=arc, resolution=resolution)
+    for _ in range(ROUNDS if clearance > 0.0 else 0):
+        tight = tight_tiles(surface, clearance=clearance)
+        if not tight.any():
+            break
+        quads = _slid(quads, tight)
+        surface = cut(replace(duotone, quads=quads), LimitSurface.of(quads), arc=arc, resolution=resolution)
+    return surface
+
+
+def tight_tiles(surface: CutSurface, *, clearance: float) -> Mask:
+    """Return the tiles, (t,) bool, in which copies of the curve cannot be moved `clearance` mm apart."""
+    count = len(surface.curve)
+    upright = surface.normals[surface.curve]
+    enough, everywhere = np.full(count, ENOUGH * clearance), np.arange(count)
+    near: Mask = np.zeros(count, dtype=bool)
+    for depth in (0.0, BENEATH):
+        sides = ray_sides(surface, surface.points - depth * surface.normals)
+        shares = clearance_shares(sides, upright, -upright, clearance=clearance)
+        near |= too_near(sides, shares, enough, suspects=everywhere)
+    tight: Mask = np.zeros(len(surface.order) // 2, dtype=bool)
+    tight[surface.order[near.reshape(len(surface.order), -1).any(axis=1)] // 2] = True
+    return tight
+
+
+def _slid(quads: QuadMesh, tight: Mask) -> QuadMesh:
+    """Move the control points of the tight tiles and their neighbours within their tangent planes."""
+    tail = quads.tiles.ravel()
+    head = np.roll(quads.tiles, -1, axis=1).ravel()
+    count = len(quads.points)
+    valence = np.bincount(tail, minlength=count)
+    means = coo_array((1.0 / valence[tail], (tail, head)), shape=(count, count)).tocsr()
+    moving: Mask = np.zeros(count, dtype=bool)
+    moving[quads.tiles[tight]] = True
+    moving |= means @ moving.astype(np.float64) > 0.0
+    way = means @ quads.points - quads.points
+    normals = _control_normals(quads)
+    way -= np.einsum("ij,ij->i", way, normals)[:, None] * normals
+    return replace(quads, points=quads.points + STEP * moving[:, None] * way)
+
+
+def _control_normals(quads: QuadMesh) -> Floats:
+    """Return unit normals of the control mesh at its points, (n, 3) float."""
+    corners = quads.points[quads.tiles]
+    facet = np.repeat(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), 4, axis=0)
+    columns = [np.bincount(quads.tiles.ravel(), axis, minlength=len(quads.points)) for axis in facet.T]
+    return unit(np.stack(columns, axis=1))

@@ -1,0 +1,1 @@
+"""The smooth surface: tile templates, Catmull-Clark limit evaluation, the cut into regions."""

@@ -1,0 +1,22 @@
+"""Neighbourhoods of points on a closed triangle mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import coo_array, csr_array
+
+from fabricate.arrays import Indices, Mask
+
+
+def neighbour_means(triangles: Indices, *, count: int) -> csr_array:
+    """Return the (count, count) matrix that takes the mean over the points joined to each point."""
+    rows, columns = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).T
+    degree = np.bincount(rows, minlength=count)
+    return coo_array((1.0 / degree[rows], (rows, columns)), shape=(count, count)).tocsr()
+
+
+def grown(mask: Mask, means: csr_array, rings: int) -> Mask:
+    """Return the mask, (n,) bool, with all points within `rings` edges of it."""
+    for _ in range(rings):
+        mask = mask | (means @ mask.astype(np.float64) > 0.0)
+    return mask

@@ -1,0 +1,26 @@
+"""Unit normals of a triangle mesh at its points."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fabricate.arrays import Floats, Indices
+
+
+def vertex_normals(points: Floats, triangles: Indices) -> Floats:
+    """Return area-weighted unit normals, (n, 3) float."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    facet = np.cross(b - a, c - a)
+    normals = np.zeros_like(points)
+    for axis in range(3):
+        normals[:, axis] = sum(
+            np.bincount(triangles[:, k], facet[:, axis], minlength=len(points)) for k in range(3)
+        )
+    return unit(normals)
+
+
+def unit(vectors: Floats) -> Floats:
+    """Return the vectors, (n, 3), at length 1; a zero vector stays zero."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    scaled: Floats = vectors / np.maximum(length, np.finfo(float).tiny)
+    return scaled

@@ -1,0 +1,37 @@
+"""First hits of rays with a triangle mesh (Embree)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+
+from fabricate.arrays import Floats, Indices
+
+
+class Hits(NamedTuple):
+    """What each ray meets first: triangle number, or -1, (r,) int; distance in mm, or inf, (r,) float."""
+
+    triangle: Indices
+    distance: Floats
+
+
+def first_hits(points: Floats, triangles: Indices, origins: Floats, directions: Floats) -> Hits:
+    """Return the first hit of each ray, either side of a triangle counting; single precision.
+
+    `directions`, (r, 3), must be unit vectors for the distance to be in mm.
+    """
+    scene = EmbreeScene()
+    # the mesh registers itself with the scene
+    TriangleMesh(scene, np.ascontiguousarray(points[triangles], dtype=np.float32))
+    found = scene.run(
+        np.ascontiguousarray(origins, dtype=np.float32),
+        np.ascontiguousarray(directions, dtype=np.float32),
+        query="INTERSECT",
+        output=True,
+    )
+    triangle = found["primID"].astype(np.int64)
+    distance = np.where(triangle >= 0, found["tfar"].astype(np.float64), np.inf)
+    return Hits(triangle, distance)

@@ -1,0 +1,62 @@
+"""Scaling a mesh so that the finished sculpture, not its cage, has the size asked for."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fabricate.arrays import Floats
+from fabricate.duotone.catmull_clark import catmull_clark, subdivided
+from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.errors import PatternError
+from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.surface.limit import limit_vertices
+
+ENOUGH_TILES = 20_000
+"""Limit points from which the bounding box is read: off by about 1e-4 of the size on smooth shapes."""
+
+MAX_TILES = 4_000_000
+"""More tiles than this are out of reach of memory in the stages that follow."""
+
+
+def sized(mesh: PolygonMesh, *, size: float) -> PolygonMesh:
+    """Return the mesh scaled so that the longest side of its limit surface's bounding box is `size` mm."""
+    quads = subdivided(mesh, levels=1)
+    while len(quads.tiles) < ENOUGH_TILES:
+        quads = catmull_clark(quads).mesh
+    limit = limit_vertices(quads)
+    return mesh.scaled(size / float(np.ptp(limit, axis=0).max()))
+
+
+def tile_sides(quads: QuadMesh) -> Floats:
+    """Return the straight length of each tile side on the limit surface, (4 t,) float, mm."""
+    corners = limit_vertices(quads)[quads.tiles]
+    return np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).ravel()
+
+
+def tiled(mesh: PolygonMesh, *, tile_size: float) -> QuadMesh:
+    """Return the mesh after as many Catmull-Clark steps, at least 1, as bring the median tile side nearest to
+    `tile_size` mm.
+
+    Each step halves the sides, so the result is within a factor of the square root of 2 of what was asked, unless
+    the mesh's own faces are smaller than that already.
+
+    Raises
+    ------
+    PatternError
+        If the tile size is not positive or larger than the body, or needs more tiles than memory holds.
+    """
+    extent = float(np.ptp(mesh.points, axis=0).max())
+    if not 0.0 < tile_size <= extent:
+        raise PatternError(
+            f"a tile size must be positive and no larger than the body, which is {extent:.4g} mm long; "
+            f"found {tile_size:g} mm"
+        )
+    quads = subdivided(mesh, levels=1)
+    steps = int(np.rint(np.log2(float(np.median(tile_sides(quads))) / tile_size)))
+    if len(quads.tiles) * 4.0**steps > MAX_TILES:
+        raise PatternError(
+            f"tiles of {tile_size:g} mm would be more than {MAX_TILES}; ask for a larger pattern.tile_size"
+        )
+    for _ in range(steps):
+        quads = catmull_clark(quads).mesh
+    return quads

@@ -1,0 +1,101 @@
+"""Printability: the limits of each process, met and just missed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+
+from fabricate.checks.check import Check
+from fabricate.checks.expectations import Neck
+from fabricate.checks.printability import neck_check, process_gap_check, wall_check
+from fabricate.checks.walls import walls
+from fabricate.process import PROCESSES, Process
+from fabricate.solid.part import Part
+
+FDM = PROCESSES["fdm"]
+AT = (1.0, 2.0, 3.0)
+
+every_process = pytest.mark.parametrize("process", PROCESSES.values(), ids=PROCESSES)
+
+
+def wall(thickness: float, process: Process | None) -> Check:
+    mesh = trimesh.creation.box((10, 10, thickness))
+    part = Part("red", mesh.vertices, mesh.faces)
+    return wall_check(part, walls(part), process=process)
+
+
+@every_process
+def test_walls_are_held_against_the_process(process: Process) -> None:
+    assert wall(1.01 * process.wall_min, process).ok
+    thin = wall(0.99 * process.wall_min, process)
+    assert thin.failed
+    assert thin.code == "red.wall"
+    assert f"{process.wall_min:g} mm" in thin.message
+    assert np.allclose(np.abs(thin.where[:, 2]), 0.99 * process.wall_min / 2, rtol=1e-6)
+    assert len(thin.where) == 4  # two triangles on top, two below
+
+
+def test_without_a_process_the_wall_is_said_but_not_judged() -> None:
+    unknown = wall(0.1, None)
+    assert unknown.skipped
+    assert "0.1 mm" in unknown.message
+
+
+def test_without_opposite_faces_there_is_no_wall_to_judge() -> None:
+    corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], dtype=float)
+    part = Part("red", corners, np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]))
+    assert wall_check(part, walls(part), process=FDM).skipped
+
+
+@every_process
+def test_clearance_is_taken_off_the_neck(process: Process) -> None:
+    neck = Neck(process.feature_min + 0.3, AT)
+    assert neck_check(neck, clearance=0.29, process=process).ok
+    narrow = neck_check(neck, clearance=0.31, process=process)
+    assert narrow.failed
+    assert narrow.where.tolist() == [list(AT)]
+    assert "(1, 2, 3)" in narrow.message
+
+
+@pytest.mark.parametrize(
+    ("neck", "clearance", "process"),
+    [(None, 0.3, FDM), (Neck(1.0, AT), None, FDM), (Neck(1.0, AT), 0.3, None)],
+)
+def test_necks_are_not_judged_without_all_figures(
+    neck: Neck | None, clearance: float | None, process: Process | None
+) -> None:
+    assert neck_check(neck, clearance=clearance, process=process).skipped
+
+
+@every_process
+def test_the_gap_of_the_process_prints_loose(process: Process) -> None:
+    found = process_gap_check(process.captive_gap, process=process)
+    assert found.ok
+    assert "loose" in found.message
+    assert "tight" not in found.message
+
+
+@every_process
+def test_a_smaller_gap_passes_and_is_called_tight(process: Process) -> None:
+    found = process_gap_check(0.9 * process.captive_gap, process=process)
+    assert found.ok
+    assert "tight" in found.message
+    assert f"{process.captive_gap:g} mm" in found.message
+
+
+def test_a_gap_that_slicers_close_fails() -> None:
+    assert process_gap_check(0.0979, process=FDM).failed
+    assert process_gap_check(0.098, process=FDM).ok
+
+
+def test_gaps_between_tight_and_closed_are_said_to_stick() -> None:
+    assert "well-tuned" in process_gap_check(0.3, process=FDM).message
+    assert "force" in process_gap_check(0.2, process=FDM).message
+
+
+@pytest.mark.parametrize(("clearance", "process"), [(None, FDM), (0.3, None), (0.0, FDM)])
+def test_the_gap_is_not_judged_where_there_is_nothing_to_judge(
+    clearance: float | None, process: Process | None
+) -> None:
+    assert process_gap_check(clearance, process=process).skipped

@@ -1,0 +1,8 @@
+"""Settings of all property tests: machines are shared, so no example fails for being slow."""
+
+from __future__ import annotations
+
+from hypothesis import settings
+
+settings.register_profile("fabricate", deadline=None)
+settings.load_profile("fabricate")

@@ -1,0 +1,54 @@
+"""The curve as PLY: points come back exactly, edges make one closed loop."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import networkx as nx
+import numpy as np
+import pytest
+
+from fabricate.output.curve_ply import write_curve
+
+ANGLE = np.linspace(0, 2 * np.pi, 101)[:-1]
+CURVE = np.stack([np.cos(ANGLE), np.sin(2 * ANGLE), np.sin(ANGLE) / 3], axis=1) * 50
+
+
+def read(path: Path) -> tuple[list[str], np.ndarray, np.ndarray]:
+    """Header lines, points and edges, by the PLY format's own description in the header."""
+    header, _, body = path.read_bytes().partition(b"end_header\n")
+    lines = header.decode("ascii").splitlines()
+    counts = {line.split()[1]: int(line.split()[2]) for line in lines if line.startswith("element")}
+    points = np.frombuffer(body, "<f8", 3 * counts["vertex"]).reshape(-1, 3)
+    edges = np.frombuffer(body[points.nbytes :], "<i4").reshape(-1, 2)
+    assert len(edges) == counts["edge"]
+    return lines, points, edges
+
+
+def test_points_come_back_exactly_and_edges_close_one_loop(tmp_path: Path) -> None:
+    write_curve(tmp_path / "curve.ply", CURVE)
+    lines, points, edges = read(tmp_path / "curve.ply")
+    assert lines[:2] == ["ply", "format binary_little_endian 1.0"]
+    assert sum(line.startswith("property double") for line in lines) == 3
+    np.testing.assert_array_equal(points, CURVE)
+    loop = nx.Graph(edges.tolist())
+    assert nx.is_connected(loop)
+    assert all(degree == 2 for _, degree in loop.degree)
+    assert len(loop) == len(CURVE)
+    assert edges[-1].tolist() == [len(CURVE) - 1, 0]
+
+
+def test_the_second_file_is_the_same_and_the_curve_is_untouched(tmp_path: Path) -> None:
+    before = CURVE.copy()
+    for name in ("a.ply", "b.ply"):
+        write_curve(tmp_path / name, CURVE)
+    assert (tmp_path / "a.ply").read_bytes() == (tmp_path / "b.ply").read_bytes()
+    np.testing.assert_array_equal(CURVE, before)
+    assert CURVE.flags.writeable
+
+
+@pytest.mark.parametrize("points", [np.zeros((2, 3)), np.zeros((5, 2)), np.zeros(9)])
+def test_what_is_no_closed_curve_is_refused(tmp_path: Path, points: np.ndarray) -> None:
+    with pytest.raises(ValueError, match="expected"):
+        write_curve(tmp_path / "curve.ply", points)
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,235 @@
+from __future__ import annotations
+
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from polyhedra import HANDLES, bipyramid, directed_edges, named, octahedron, tetrahedron
+from scipy.spatial import KDTree
+from truchet import quasi_trees
+
+from fabricate.duotone.catmull_clark import subdivided
+from fabricate.duotone.curve import traced_arcs
+from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.spanning_tree import random_duotone
+from fabricate.errors import PatternError
+from fabricate.mesh.sphere import geodesic_sphere
+from fabricate.surface.cut import CutSurface, cut
+from fabricate.surface.limit import LimitSurface, limit_vertices
+from fabricate.surface.template import radial
+
+ARCS = st.floats(0.3, 0.7)
+NAMED = {name: random_duotone(subdivided(mesh, levels=1), seed=2) for name, mesh in named().items()}
+SPHERE = random_duotone(subdivided(geodesic_sphere(frequency=2), levels=1), seed=1)
+
+
+def cut_up(duotone: Duotone, arc: float = 0.5, resolution: int = 3) -> CutSurface:
+    return cut(duotone, LimitSurface.of(duotone.quads), arc=arc, resolution=resolution)
+
+
+CUTS = st.builds(cut_up, quasi_trees(), ARCS, st.integers(2, 3))
+law = settings(max_examples=25)
+
+
+def directed(triangles: np.ndarray) -> set[tuple[int, int]]:
+    return set(directed_edges(triangles.tolist()))
+
+
+def areas(surface: CutSurface) -> np.ndarray:
+    a, b, c = np.moveaxis(surface.points[surface.triangles], 1, 0)
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
+
+
+def curve_steps(surface: CutSurface) -> np.ndarray:
+    places = surface.points[surface.curve]
+    return np.asarray(np.roll(places, -1, axis=0) - places)
+
+
+def enclosed(surface: CutSurface) -> float:
+    return float(np.linalg.det(surface.points[surface.triangles]).sum() / 6)
+
+
+@law
+@given(surface=CUTS)
+def test_surface_is_closed_and_each_edge_has_two_triangles(surface: CutSurface) -> None:
+    edges = directed(surface.triangles)
+    assert len(edges) == surface.triangles.size
+    assert all(edge[::-1] in edges for edge in edges)
+    assert np.unique(surface.triangles).tolist() == list(range(len(surface.points)))
+
+
+@law
+@given(surface=CUTS)
+def test_triangles_round_each_point_form_one_fan(surface: CutSurface) -> None:
+    beyond = {(a, b): c for t in surface.triangles.tolist() for a, b, c in (t, t[1:] + t[:1], t[2:] + t[:2])}
+    fans = np.bincount(surface.triangles.ravel())
+    ring = dict(beyond)
+    for point, start in ring.items():
+        met, other = 1, beyond[point, start]
+        while other != start:
+            met, other = met + 1, beyond[point, other]
+        assert met == fans[point]
+
+
+@law
+@given(duotone=quasi_trees(), resolution=st.integers(2, 4))
+def test_euler_characteristic_is_that_of_the_shape(duotone: Duotone, resolution: int) -> None:
+    surface = cut_up(duotone, resolution=resolution)
+    edges = surface.triangles.size // 2
+    assert len(surface.points) - edges + len(surface.triangles) == 2 - 2 * duotone.quads.genus
+
+
+@law
+@given(surface=CUTS)
+def test_each_colour_is_connected_and_bounded_by_the_curve(surface: CutSurface) -> None:
+    forward = [tuple(step) for step in np.stack([surface.curve, np.roll(surface.curve, -1)], axis=1).tolist()]
+    backward = [step[::-1] for step in forward]
+    for yellow, rim in ((True, forward), (False, backward)):
+        edges = directed(surface.triangles[surface.yellow == yellow])
+        assert {edge for edge in edges if edge[::-1] not in edges} == set(rim)
+        assert nx.is_connected(nx.Graph(list(edges)))
+
+
+@law
+@given(surface=CUTS)
+def test_curve_meets_no_point_twice(surface: CutSurface) -> None:
+    assert len(set(surface.curve.tolist())) == len(surface.curve)
+
+
+@law
+@given(surface=CUTS)
+def test_rays_cross_the_curve_in_their_middle(surface: CutSurface) -> None:
+    middle = surface.rays.shape[2] // 2
+    assert (surface.arcs == surface.rays[:, :, middle]).all()
+    assert (surface.curve_rays[:, middle] == surface.curve).all()
+    assert (surface.arcs[surface.order, :-1].ravel() == surface.curve).all()
+
+
+@law
+@given(surface=CUTS)
+def test_the_last_ray_of_an_arc_is_the_first_of_the_next(surface: CutSurface) -> None:
+    along = surface.rays[surface.order]
+    assert (along[:, -1] == np.roll(along[:, 0], -1, axis=0)).all()
+
+
+@law
+@given(surface=CUTS)
+def test_rays_run_along_edges_from_blue_to_yellow(surface: CutSurface) -> None:
+    yellow = directed(surface.triangles[surface.yellow])
+    blue = directed(surface.triangles[~surface.yellow])
+    middle = surface.rays.shape[2] // 2
+    for ray in surface.curve_rays.tolist():
+        steps = list(pairwise(ray))
+        assert blue.issuperset(steps[:middle])
+        assert yellow.issuperset(steps[middle:])
+        assert yellow.isdisjoint(steps[:middle])
+        assert blue.isdisjoint(steps[middle:])
+
+
+@law
+@given(duotone=quasi_trees(), arc=ARCS, resolution=st.integers(2, 4))
+def test_counts(duotone: Duotone, arc: float, resolution: int) -> None:
+    surface = cut_up(duotone, arc, resolution)
+    tiles, steps = len(duotone.joined), 2 * radial(resolution)
+    assert len(surface.triangles) == tiles * 2 * resolution * (2 * steps - 1)
+    assert len(surface.curve) == 2 * tiles * resolution
+    assert surface.rays.shape == (2 * tiles, resolution + 1, steps + 1)
+    assert surface.order.tolist() == traced_arcs(duotone).tolist()
+
+
+@pytest.mark.parametrize("name", NAMED)
+@pytest.mark.parametrize("arc", [0.31, 0.5, 0.69])
+def test_no_two_points_are_in_one_place(name: str, arc: float) -> None:
+    surface = cut_up(NAMED[name], arc, 5)
+    distance = KDTree(surface.points).query(surface.points, k=2)[0][:, 1]
+    assert distance.min() > 1e-4 * np.ptp(surface.points)
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_the_same_input_gives_the_same_bytes(name: str) -> None:
+    first, second = cut_up(NAMED[name]), cut_up(NAMED[name])
+    for array in ("points", "normals", "triangles", "yellow", "curve", "rays", "order"):
+        assert getattr(first, array).tobytes() == getattr(second, array).tobytes()
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_corners_of_tiles_keep_their_numbers_and_lie_on_the_limit(name: str) -> None:
+    surface, quads = cut_up(NAMED[name]), NAMED[name].quads
+    np.testing.assert_allclose(surface.points[: len(quads.points)], limit_vertices(quads), atol=1e-13)
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_a_finer_cut_keeps_the_points_of_the_coarse_curve(name: str) -> None:
+    coarse, fine = (cut_up(NAMED[name], 0.4, resolution) for resolution in (4, 8))
+    np.testing.assert_allclose(fine.points[fine.curve[::2]], coarse.points[coarse.curve], atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["tetrahedron", "octahedron", "bipyramid 8", "torus", "double torus"])
+def test_triangles_face_outward(name: str) -> None:
+    surface = cut_up(NAMED[name], resolution=6)
+    a, b, c = np.moveaxis(surface.points[surface.triangles], 1, 0)
+    facet, seen = np.cross(b - a, c - a), surface.normals[surface.triangles].mean(axis=1)
+    assert (np.einsum("ij,ij->i", facet, seen) > 0).all()
+    assert enclosed(surface) > 0
+
+
+def test_volume_and_curve_length_converge_quadratically() -> None:
+    found = [cut_up(SPHERE, 0.45, n) for n in (3, 6, 12, 24)]  # radial() doubles along with these
+    volumes = np.array([enclosed(surface) for surface in found])
+    lengths = np.array([np.linalg.norm(curve_steps(surface), axis=1).sum() for surface in found])
+    for values in (volumes, lengths):
+        differences = np.diff(values)
+        assert np.log2(differences[-2] / differences[-1]) == pytest.approx(2, abs=0.2)
+
+
+def test_curve_turns_evenly_also_where_it_enters_the_next_tile() -> None:
+    sharpest = []
+    for resolution in (8, 16, 32):
+        surface = cut_up(SPHERE, 0.5, resolution)
+        steps = curve_steps(surface)
+        steps /= np.linalg.norm(steps, axis=1, keepdims=True)
+        cosine = np.einsum("ij,ij->i", steps, np.roll(steps, 1, axis=0))
+        sharpest.append(np.arccos(np.clip(cosine, -1, 1)).max())
+    np.testing.assert_allclose(np.divide(sharpest[:-1], sharpest[1:]), 2, atol=0.2)
+
+
+def test_yellow_grows_with_the_arc_position() -> None:
+    shares = []
+    for arc in np.linspace(0.3, 0.7, 9):
+        surface = cut_up(SPHERE, float(arc), 8)
+        shares.append(areas(surface)[surface.yellow].sum() / areas(surface).sum())
+    assert (np.diff(shares) > 0).all()
+    # the law of square tiles, half of them joined
+    np.testing.assert_allclose(shares, 0.5 + np.pi / 4 * (2 * np.linspace(0.3, 0.7, 9) - 1), atol=0.03)
+
+
+@pytest.mark.parametrize("mesh", [tetrahedron(), octahedron(), bipyramid(5), HANDLES["torus"][0]])
+def test_two_curves_are_an_error(mesh: object) -> None:
+    quads = subdivided(mesh, levels=1)  # type: ignore[arg-type]
+    joined = random_duotone(quads, seed=1).joined.copy()
+    joined[np.argmax(joined)] = False
+    with pytest.raises(PatternError, match="expected one closed curve, found 2"):
+        cut_up(Duotone(quads, joined))
+
+
+@pytest.mark.parametrize(("arc", "resolution"), [(0.2, 4), (0.8, 4), (0.5, 1)])
+def test_what_the_template_refuses_is_refused(arc: float, resolution: int) -> None:
+    with pytest.raises(PatternError):
+        cut_up(SPHERE, arc, resolution)
+
+
+@given(millionths=st.integers(293_000, 707_000), resolution=st.integers(20, 26))
+@settings(max_examples=10)
+@example(millionths=293_001, resolution=23)
+def test_arcs_with_many_digits_leave_no_crack(millionths: int, resolution: int) -> None:
+    surface = cut_up(NAMED["tetrahedron"], millionths / 1e6, resolution)
+    assert len(surface.points) - surface.triangles.size // 6 == 2
+
+
+@pytest.mark.parametrize("name", ["points", "normals", "triangles", "yellow", "curve", "rays", "order"])
+def test_arrays_are_frozen(name: str) -> None:
+    with pytest.raises(ValueError, match="read-only"):
+        getattr(cut_up(SPHERE), name)[0] = 0

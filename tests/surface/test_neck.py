@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.distance import cdist
+from truchet import quasi_trees
+
+from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
+from fabricate.duotone.spanning_tree import random_duotone
+from fabricate.mesh.cube import cube
+from fabricate.surface.cut import CutSurface, cut
+from fabricate.surface.limit import LimitSurface
+from fabricate.surface.neck import tile_necks
+
+SIDE = 4.0
+CUBE = two_coloured(cube(divisions=10).scaled(5 * SIDE))
+
+
+def cut_up(duotone: Duotone, arc: float, resolution: int) -> CutSurface:
+    return cut(duotone, LimitSurface.of(duotone.quads), arc=arc, resolution=resolution)
+
+
+def flat_squares(quads: QuadMesh) -> np.ndarray:
+    """Return the tiles of the cube that are two tiles or more away from its edges."""
+    reach = np.sort(np.abs(quads.points[quads.tiles]).max(axis=1), axis=1)
+    return np.flatnonzero(reach[:, 1] < 3.5 * SIDE)
+
+
+@settings(max_examples=20)
+@given(arc=st.floats(0.3, 0.7), seed=st.integers(0, 99), half=st.integers(1, 6))
+def test_necks_of_flat_squares_follow_the_formula(arc: float, seed: int, half: int) -> None:
+    duotone = random_duotone(CUBE, seed=seed)
+    necks, _ = tile_necks(cut_up(duotone, arc, 2 * half))
+    radius = np.where(duotone.joined, 1 - arc, arc)
+    flat = flat_squares(CUBE)
+    assert len(flat) == 6 * 36
+    np.testing.assert_allclose(necks[flat], ((np.sqrt(2) - 2 * radius) * SIDE)[flat], atol=1e-12)
+
+
+def test_odd_resolutions_miss_the_narrowest_place_by_little() -> None:
+    duotone, exact = random_duotone(CUBE, seed=4), (np.sqrt(2) - 1) * SIDE
+    off = [tile_necks(cut_up(duotone, 0.5, n))[0][flat_squares(CUBE)] - exact for n in (3, 5, 9)]
+    assert min(necks.min() for necks in off) > 0
+    assert (np.max(off, axis=1) < np.array([0.1, 0.04, 0.012]) * SIDE).all()
+
+
+@settings(max_examples=20)
+@given(duotone=quasi_trees(), arc=st.floats(0.3, 0.7), resolution=st.integers(2, 6))
+def test_neck_is_the_least_distance_between_all_points_of_the_two_arcs(
+    duotone: Duotone, arc: float, resolution: int
+) -> None:
+    surface = cut_up(duotone, arc, resolution)
+    necks, places = tile_necks(surface)
+    arcs = surface.points[surface.arcs].reshape(len(duotone.joined), 2, resolution + 1, 3)
+    for (first, second), neck, place in zip(arcs, necks, places, strict=True):
+        apart = cdist(first, second)
+        assert neck == pytest.approx(apart.min(), rel=1e-12)
+        middles = (first[:, None] + second)[np.isclose(apart, apart.min(), rtol=1e-9)] / 2
+        assert np.linalg.norm(middles - place, axis=1).min() < 1e-12
+
+
+def test_place_is_in_the_middle_of_a_flat_square() -> None:
+    duotone = random_duotone(CUBE, seed=0)
+    _, places = tile_necks(cut_up(duotone, 0.6, 8))
+    flat = flat_squares(CUBE)
+    np.testing.assert_allclose(places[flat], CUBE.points[CUBE.tiles].mean(axis=1)[flat], atol=1e-12)

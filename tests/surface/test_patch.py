@@ -1,0 +1,121 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from polyhedra import seeds
+from scipy.interpolate import BSpline
+
+from fabricate.surface.patch import FAR_POINTS, patch_basis
+
+VALENCES = st.integers(2, 12)
+# a tile's samples lie some dozen subdivisions from the corner at most
+SOMEWHERE = st.one_of(st.sampled_from([0.0, 0.5, 1.0]), st.floats(1e-5, 1))
+UV = st.lists(st.tuples(SOMEWHERE, SOMEWHERE), min_size=1, max_size=12).map(np.array)
+INSIDE = st.lists(st.tuples(*2 * [st.floats(0.01, 0.99)]), min_size=1, max_size=12).map(np.array)
+
+
+def mirrored_numbers(valence: int) -> np.ndarray:
+    """Return the control points in the mirror that exchanges u and v."""
+    ring = np.arange(valence)
+    numbers = np.zeros(2 * valence + 8, dtype=int)
+    numbers[1 + 2 * ring] = 1 + 2 * ((1 - ring) % valence)
+    numbers[2 + 2 * ring] = 2 + 2 * (-ring % valence)
+    numbers[2 * valence + 1 :] = np.arange(2 * valence + 7, 2 * valence, -1)
+    return numbers
+
+
+def spline_weight(offset: int, t: np.ndarray) -> np.ndarray:
+    """Return the uniform cubic B-spline centred at `offset`, at t."""
+    knots = np.arange(-2, 3) + offset
+    return np.nan_to_num(np.asarray(BSpline.basis_element(knots, extrapolate=False)(t)))
+
+
+def places(valence: int) -> np.ndarray:
+    """Return control points in the plane: the regular grid for valence 4, else about what becomes of it."""
+    ring = np.arange(valence)
+    e = np.exp(2j * np.pi * ring / valence)
+    f = e + np.roll(e, -1)
+    far = np.array([i * e[0] + j * e[1] for i, j in FAR_POINTS])
+    found = np.concatenate([[0], np.stack([e, f], axis=1).ravel(), far])
+    return np.stack([found.real, found.imag], axis=1)
+
+
+@given(valence=VALENCES, uv=UV)
+def test_positions_are_means_of_the_control_points(valence: int, uv: np.ndarray) -> None:
+    basis = patch_basis(uv, valence=valence)
+    assert basis.position.shape == (len(uv), 2 * valence + 8)
+    np.testing.assert_allclose(basis.position.sum(axis=1), 1, atol=1e-13)
+    assert basis.position.min() > -1e-16
+
+
+@given(valence=VALENCES, uv=UV)
+def test_derivatives_of_a_constant_vanish(valence: int, uv: np.ndarray) -> None:
+    basis = patch_basis(uv, valence=valence)
+    np.testing.assert_allclose(basis.along_u.sum(axis=1), 0, atol=1e-12)
+    np.testing.assert_allclose(basis.along_v.sum(axis=1), 0, atol=1e-12)
+
+
+@given(valence=VALENCES, uv=UV)
+def test_exchanging_u_and_v_is_a_reflection(valence: int, uv: np.ndarray) -> None:
+    mirror = mirrored_numbers(valence)
+    there, back = patch_basis(uv, valence=valence), patch_basis(uv[:, ::-1].copy(), valence=valence)
+    np.testing.assert_allclose(there.position, back.position[:, mirror], atol=1e-14)
+    off_corner = uv.max(axis=1) > 0
+    np.testing.assert_allclose(there.along_u[off_corner], back.along_v[off_corner][:, mirror], atol=1e-14)
+
+
+@given(uv=UV)
+def test_regular_patch_is_a_bicubic_spline(uv: np.ndarray) -> None:
+    basis = patch_basis(uv, valence=4)
+    e, f = [(1, 0), (0, 1), (-1, 0), (0, -1)], [(1, 1), (-1, 1), (-1, -1), (1, -1)]
+    grid = [(0, 0), *(point for pair in zip(e, f, strict=True) for point in pair), *FAR_POINTS]
+    wanted = [spline_weight(i, uv[:, 0]) * spline_weight(j, uv[:, 1]) for i, j in grid]
+    np.testing.assert_allclose(basis.position, np.stack(wanted, axis=1), atol=1e-14)
+
+
+@given(valence=VALENCES, uv=INSIDE)
+def test_derivatives_point_where_positions_go(valence: int, uv: np.ndarray) -> None:
+    control, step = places(valence), 1e-5
+    basis = patch_basis(uv, valence=valence)
+    for direction, weights in (([step, 0], basis.along_u), ([0, step], basis.along_v)):
+        ahead, behind = (patch_basis(uv + s * np.array(direction), valence=valence) for s in (1, -1))
+        wanted = (ahead.position - behind.position) @ control
+        found = weights @ control
+        wanted /= np.linalg.norm(wanted, axis=1, keepdims=True)
+        found /= np.linalg.norm(found, axis=1, keepdims=True)
+        np.testing.assert_allclose(found, wanted, atol=1e-6)
+
+
+@given(valence=st.integers(3, 12), uv=UV)
+def test_patch_of_a_flat_fan_keeps_its_orientation(valence: int, uv: np.ndarray) -> None:
+    control = places(valence)
+    basis = patch_basis(uv, valence=valence)
+    (a, b), (c, d) = (basis.along_u @ control).T, (basis.along_v @ control).T
+    assert (a * d - b * c > 0).all()
+
+
+@pytest.mark.parametrize("valence", range(2, 13))
+def test_positions_run_continuously_into_the_corner(valence: int) -> None:
+    near = 2.0 ** -np.arange(20, 41)[:, None] * np.array([0.7, 1.0])
+    found = patch_basis(near, valence=valence).position
+    corner = patch_basis(np.zeros((1, 2)), valence=valence).position
+    apart = np.abs(found - corner).max(axis=1)
+    assert apart[-1] < 1e-6
+    assert (np.diff(apart) < 1e-15).all()
+
+
+@given(valence=VALENCES, uv=UV, seed=seeds)
+def test_samples_do_not_feel_each_other(valence: int, uv: np.ndarray, seed: int) -> None:
+    order = np.random.default_rng(seed).permutation(len(uv))
+    together, apart = patch_basis(uv, valence=valence), patch_basis(uv[order], valence=valence)
+    for one, other in zip(together, apart, strict=True):
+        np.testing.assert_allclose(one[order], other, atol=1e-15)
+
+
+@given(valence=VALENCES, uv=UV)
+def test_parameters_are_left_alone(valence: int, uv: np.ndarray) -> None:
+    before = uv.copy()
+    patch_basis(uv, valence=valence)
+    assert (uv == before).all()

@@ -1,0 +1,282 @@
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import example, given
+from hypothesis import strategies as st
+from polyhedra import directed_edges
+from scipy.spatial import KDTree
+
+from fabricate.errors import PatternError
+from fabricate.surface.template import (
+    ARC_MAX,
+    ARC_MIN,
+    TileTemplate,
+    radial,
+    side_fractions,
+    tile_template,
+)
+
+CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+SQUARE = shapely.box(0, 0, 1, 1)
+
+# numbers that people write, and numbers that come out of a search for an exact area
+ARCS = st.one_of(
+    st.integers(293_000, 707_000).map(lambda millionths: millionths / 1e6),
+    st.floats(0.293, 0.707),
+)
+RESOLUTIONS = st.integers(2, 24)
+
+
+def made(arc: float, resolution: int, yellow_joined: bool) -> TileTemplate:
+    return tile_template(arc=arc, resolution=resolution, yellow_joined=yellow_joined)
+
+
+TEMPLATES = st.builds(made, ARCS, RESOLUTIONS, st.booleans())
+
+
+def areas(template: TileTemplate) -> np.ndarray:
+    a, b, c = np.moveaxis(template.uv[template.triangles], 1, 0)
+    (u, v), (s, t) = (b - a).T, (c - a).T
+    return np.asarray((u * t - v * s) / 2)
+
+
+def edge_set(triangles: np.ndarray) -> set[tuple[int, int]]:
+    return set(directed_edges(triangles.tolist()))
+
+
+def matched(found: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Return which of the found points each wanted one is; all must be there, each once."""
+    distance, place = KDTree(found).query(wanted)
+    np.testing.assert_allclose(distance, 0, atol=1e-9)
+    assert sorted(place.tolist()) == list(range(len(found)))
+    return np.asarray(place)
+
+
+def round_corners(yellow_joined: bool) -> np.ndarray:
+    """Return the corners that the two arcs go round, by the side through which each enters."""
+    return CORNERS[[1, 3]] if yellow_joined else CORNERS[[0, 2]]
+
+
+def blue_region(arc: float, yellow_joined: bool) -> shapely.Geometry:
+    """Return the blue part of a tile, with circles of a thousand segments."""
+    radius = 1 - arc if yellow_joined else arc
+    discs = [shapely.Point(corner).buffer(radius, quad_segs=256) for corner in round_corners(yellow_joined)]
+    inside = shapely.union_all(discs).intersection(SQUARE)
+    return inside if yellow_joined else SQUARE.difference(inside)
+
+
+def triangulated(template: TileTemplate, *, yellow: bool) -> shapely.Geometry:
+    corners = template.uv[template.triangles[template.yellow == yellow]]
+    return shapely.union_all(shapely.polygons(corners))
+
+
+@given(arc=ARCS, resolution=RESOLUTIONS, yellow_joined=st.booleans())
+@example(arc=0.293001, resolution=23, yellow_joined=True)
+@example(arc=0.293001, resolution=23, yellow_joined=False)
+@example(arc=0.29301, resolution=47, yellow_joined=True)
+@example(arc=ARC_MIN + 1e-9, resolution=4, yellow_joined=True)
+@example(arc=ARC_MAX - 1e-9, resolution=4, yellow_joined=False)
+def test_counts_do_not_depend_on_the_arc(arc: float, resolution: int, yellow_joined: bool) -> None:
+    template, n, m = made(arc, resolution, yellow_joined), resolution, radial(resolution)
+    assert len(template.uv) == 4 + 4 * (2 * m - 1) + 2 * (n - 1) * (2 * m - 1) + n - 1
+    assert len(template.triangles) == 2 * n * (4 * m - 1)
+    assert template.rays.shape == (2, n + 1, 2 * m + 1)
+    assert np.unique(template.triangles).tolist() == list(range(len(template.uv)))
+
+
+@given(template=TEMPLATES)
+def test_triangles_cover_the_square_once_and_turn_left(template: TileTemplate) -> None:
+    assert areas(template).min() > 0
+    assert areas(template).sum() == pytest.approx(1, abs=1e-12)
+
+
+@given(template=TEMPLATES)
+def test_triangles_form_a_disc_whose_rim_is_the_four_sides(template: TileTemplate) -> None:
+    directed = edge_set(template.triangles)
+    assert len(directed) == template.triangles.size
+    rim = {edge for edge in directed if edge[::-1] not in directed}
+    edges = (len(directed) + len(rim)) // 2
+    assert len(template.uv) - edges + len(template.triangles) == 1
+    begin, end = template.uv[np.array(sorted(rim))].transpose(1, 0, 2)
+    u, v = begin.T
+    along_u, along_v = (end - begin).T
+    sides = [(v == 0, along_u), (u == 1, along_v), (v == 1, -along_u), (u == 0, -along_v)]
+    assert np.any([on & (onward > 0) for on, onward in sides], axis=0).all()
+    assert len(rim) == 4 * (template.rays.shape[2] - 1)
+
+
+@given(arc=ARCS, resolution=RESOLUTIONS, yellow_joined=st.booleans())
+def test_samples_come_as_corners_sides_interior(arc: float, resolution: int, yellow_joined: bool) -> None:
+    uv, per_side = made(arc, resolution, yellow_joined).uv, 2 * radial(resolution) - 1
+    assert (uv[:4] == CORNERS).all()
+    fractions = side_fractions(arc=arc, resolution=resolution)[1:-1, None]
+    for side, (yellow, blue) in enumerate(((0, 1), (2, 1), (2, 3), (0, 3))):
+        expected = CORNERS[yellow] + fractions * (CORNERS[blue] - CORNERS[yellow])
+        found = uv[4 + side * per_side : 4 + (side + 1) * per_side]
+        np.testing.assert_allclose(found, expected, atol=1e-12)
+    inside = uv[4 + 4 * per_side :]
+    assert (inside > 0).all()
+    assert (inside < 1).all()
+
+
+@given(arc=ARCS, resolution=RESOLUTIONS)
+def test_both_kinds_divide_their_sides_alike(arc: float, resolution: int) -> None:
+    rim = 4 + 4 * (2 * radial(resolution) - 1)
+    joined, other = (made(arc, resolution, kind).uv for kind in (True, False))
+    np.testing.assert_allclose(joined[:rim], other[:rim], atol=1e-12)
+    assert len(joined) == len(other)
+
+
+@given(arc=ARCS, resolution=RESOLUTIONS)
+def test_side_fractions_rise_from_end_to_end_with_the_crossing_in_the_middle(
+    arc: float, resolution: int
+) -> None:
+    fractions = side_fractions(arc=arc, resolution=resolution)
+    assert fractions[0] == 0
+    assert fractions[-1] == pytest.approx(1, abs=1e-15)
+    assert fractions[radial(resolution)] == pytest.approx(arc, abs=1e-15)
+    assert (np.diff(fractions) > 0).all()
+
+
+@given(arc=ARCS, resolution=RESOLUTIONS, yellow_joined=st.booleans())
+def test_arcs_are_quarter_circles_from_side_to_side(arc: float, resolution: int, yellow_joined: bool) -> None:
+    template = made(arc, resolution, yellow_joined)
+    spokes = template.uv[template.arcs] - round_corners(yellow_joined)[:, None]
+    radius = 1 - arc if yellow_joined else arc
+    np.testing.assert_allclose(np.linalg.norm(spokes, axis=2), radius, atol=1e-12)
+    turn = np.unwrap(np.arctan2(spokes[..., 1], spokes[..., 0]), axis=1)
+    step = np.pi / 2 / resolution
+    np.testing.assert_allclose(np.diff(turn, axis=1), -step if yellow_joined else step, atol=1e-12)
+    begins = [[arc, 0], [1 - arc, 1]]
+    np.testing.assert_allclose(template.uv[template.arcs[:, 0]], begins, atol=1e-12)
+
+
+@given(template=TEMPLATES)
+def test_arcs_run_along_edges_with_yellow_on_the_left(template: TileTemplate) -> None:
+    yellow = edge_set(template.triangles[template.yellow])
+    blue = edge_set(template.triangles[~template.yellow])
+    for arc in template.arcs.tolist():
+        steps = list(pairwise(arc))
+        assert yellow.issuperset(steps)
+        assert blue.issuperset((b, a) for a, b in steps)
+    between = {edge for edge in yellow if edge[::-1] in blue}
+    assert len(between) == 2 * (template.arcs.shape[1] - 1)
+
+
+@given(template=TEMPLATES)
+def test_rays_are_straight_edges_from_blue_to_yellow(template: TileTemplate) -> None:
+    samples = template.uv[template.rays]
+    steps = np.diff(samples, axis=2)
+    whole = samples[:, :, -1] - samples[:, :, 0]
+    along = np.einsum("arsk,ark->ars", steps, whole)
+    across = steps[..., 0] * whole[..., None, 1] - steps[..., 1] * whole[..., None, 0]
+    assert (along > 0).all()
+    np.testing.assert_allclose(across, 0, atol=1e-12)
+    edges = edge_set(template.triangles)
+    middle = template.rays.shape[2] // 2
+    colours = {True: edge_set(template.triangles[template.yellow])}
+    colours[False] = edges - colours[True]
+    for ray in template.rays.reshape(-1, 2 * middle + 1).tolist():
+        for step, edge in enumerate(pairwise(ray)):
+            found = [colour for colour in (True, False) if {edge, edge[::-1]} & colours[colour]]
+            assert found == [step >= middle]
+
+
+@given(arc=ARCS, resolution=RESOLUTIONS, yellow_joined=st.booleans())
+def test_first_and_last_rays_run_along_the_sides(arc: float, resolution: int, yellow_joined: bool) -> None:
+    template, per_side = made(arc, resolution, yellow_joined), 2 * radial(resolution) - 1
+    ends = ((0, 1), (2, 1), (2, 3), (0, 3))
+    for side_in, ray in zip((0, 2), template.rays, strict=True):
+        side_out = side_in + 1 if yellow_joined else (side_in + 3) % 4
+        for side, found in ((side_in, ray[0]), (side_out, ray[-1])):
+            yellow, blue = ends[side]
+            own = range(4 + side * per_side, 4 + (side + 1) * per_side)
+            assert found.tolist() == [blue, *reversed(own), yellow]
+
+
+@given(arc=ARCS, resolution=RESOLUTIONS)
+def test_rays_of_a_joined_tile_meet_in_pairs_on_the_diagonal(arc: float, resolution: int) -> None:
+    joined, other = made(arc, resolution, True), made(arc, resolution, False)
+    assert joined.rays[0, :, -1].tolist() == joined.rays[1, ::-1, -1].tolist()
+    np.testing.assert_allclose(*joined.uv[joined.rays[0, :, -1]].T, atol=1e-12)
+    assert other.rays[0, :, 0].tolist() == other.rays[1, ::-1, 0].tolist()
+    np.testing.assert_allclose(other.uv[other.rays[0, :, 0]].sum(axis=1), 1, atol=1e-12)
+
+
+@given(template=TEMPLATES, share=st.floats(-0.95, 0.95))
+def test_the_curve_can_move_along_its_rays_without_folding(template: TileTemplate, share: float) -> None:
+    middle, towards = template.rays.shape[2] // 2, 1 if share > 0 else -1
+    uv = template.uv.copy()
+    uv[template.arcs] += abs(share) * (uv[template.rays[:, :, middle + towards]] - uv[template.arcs])
+    moved = TileTemplate(uv, template.triangles, template.yellow, template.rays)
+    assert areas(moved).min() > 0
+
+
+@given(arc=ARCS, resolution=st.integers(2, 12), yellow_joined=st.booleans())
+def test_regions_are_those_that_circles_cut_off(arc: float, resolution: int, yellow_joined: bool) -> None:
+    template = made(arc, resolution, yellow_joined)
+    blue = blue_region(arc, yellow_joined)
+    for yellow, exact in ((True, SQUARE.difference(blue)), (False, blue)):
+        off = triangulated(template, yellow=yellow).symmetric_difference(exact).area
+        # what chords cut off two quarter circles
+        radius, step = 1 - arc if yellow_joined else arc, np.pi / 2 / resolution
+        assert off == pytest.approx(radius**2 * resolution * (step - np.sin(step)), abs=2e-5)
+
+
+@pytest.mark.parametrize("arc", [0.3, 0.5, 0.62])
+def test_yellow_area_converges_quadratically_to_that_of_circles(arc: float) -> None:
+    exact = {True: 1 - np.pi / 2 * (1 - arc) ** 2, False: np.pi / 2 * arc**2}
+    for kind, limit in exact.items():
+        found = [made(arc, n, kind) for n in (4, 8, 16)]
+        errors = [abs(areas(template)[template.yellow].sum() - limit) for template in found]
+        np.testing.assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), 2, atol=0.02)
+
+
+@given(arc=ARCS, resolution=RESOLUTIONS)
+def test_blue_joined_is_yellow_joined_a_quarter_turn_on(arc: float, resolution: int) -> None:
+    blue = made(arc, resolution, False)
+    source = made(1 - arc, resolution, True)
+    u, v = source.uv.T
+    place = matched(blue.uv, np.stack([1 - v, u], axis=1))
+    expected = {
+        (frozenset(triangle), not yellow)
+        for triangle, yellow in zip(place[source.triangles].tolist(), source.yellow.tolist(), strict=True)
+    }
+    found = zip(map(frozenset, blue.triangles.tolist()), blue.yellow.tolist(), strict=True)
+    assert set(found) == expected
+
+
+@given(template=TEMPLATES)
+def test_a_tile_looks_the_same_upside_down(template: TileTemplate) -> None:
+    place = matched(template.uv, 1 - template.uv)
+    assert (template.rays[::-1] == place[template.rays]).all()
+
+
+@given(resolution=st.integers(2, 500))
+def test_rays_have_fewer_points_than_arcs_but_two_steps_at_least(resolution: int) -> None:
+    m = radial(resolution)
+    assert m >= 2
+    assert m <= max(2, resolution)
+    assert radial(resolution + 1) >= m
+
+
+@pytest.mark.parametrize("arc", [0.0, 0.29, ARC_MIN, ARC_MAX, 0.71, 1.0, -0.5, float("nan"), float("inf")])
+def test_arcs_that_would_meet_are_an_error(arc: float) -> None:
+    with pytest.raises(PatternError, match=rf"between 0\.293 and 0\.707, found {arc:g}"):
+        made(arc, 8, True)
+
+
+@pytest.mark.parametrize("resolution", [1, 0, -4])
+def test_one_segment_is_no_arc(resolution: int) -> None:
+    with pytest.raises(PatternError, match=f"at least 2 segments per arc, found {resolution}"):
+        made(0.5, resolution, False)
+
+
+@pytest.mark.parametrize("name", ["uv", "triangles", "yellow", "rays"])
+def test_arrays_are_frozen(name: str) -> None:
+    with pytest.raises(ValueError, match="read-only"):
+        getattr(made(0.5, 3, True), name)[0] = 0
