@@ -23,10 +23,8 @@ from fabricate.output.files import write_whole
 from fabricate.output.folder import complete_folder
 from fabricate.output.sculpture import write_sculpture
 from fabricate.process import PROCESSES
-from fabricate.solid.settling import settled
+from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
-from fabricate.surface.limit import LimitSurface
-from fabricate.surface.resolution import resolution_for
 from fabricate.surface.roundness import polygons, rounded
 from fabricate.surface.sizing import sized, tiled
 
@@ -54,8 +52,9 @@ def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]
     duotone = grown_duotone(quads, tree=pattern.tree, seed=pattern.seed)
     certificate = certified(duotone)
     watch.begin("cut")
-    resolution = resolution_for(duotone, LimitSurface.of(quads), arc=pattern.arc, tolerance=solid.tolerance)
-    surface = settled(duotone, clearance=solid.clearance, arc=pattern.arc, resolution=resolution)
+    surface = fitted_cut(
+        duotone, arc=pattern.arc, tolerance=solid.tolerance, clearance=solid.clearance
+    )
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
     with complete_folder(out / name) as folder:

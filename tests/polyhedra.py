@@ -94,7 +94,9 @@ def dual(mesh: PolygonMesh) -> PolygonMesh:
             ring.append(face_of[point, head])
             head = face[face.index(point) - 1]
         rings.append(ring)
-    return PolygonMesh.from_faces([mesh.points[face].mean(axis=0) for face in faces], rings)
+    # on the sphere, as centres alone make parallelograms, whose refined points may coincide
+    centres = on_sphere(np.array([mesh.points[face].mean(axis=0) for face in faces]))
+    return PolygonMesh.from_faces(centres, rings)
 
 
 def with_merged_faces(mesh: PolygonMesh, rng: np.random.Generator, *, count: int) -> PolygonMesh:

@@ -21,7 +21,7 @@ START = 1e-4
 START_SHARE = 1e-6
 """The same as a share of the part's size, for parts so large that single precision asks for more."""
 
-OPPOSITE = -0.5
+OPPOSITE = -0.8
 """Two faces are opposite walls when the cosine between their normals is less."""
 
 
@@ -65,7 +65,7 @@ class Walls:
 def walls(part: Part) -> Walls:
     """Measure the walls of a part: from the middle of each triangle to the first face, if that is opposite.
 
-    Where the first face is not opposite, as near an edge of more than 60 degrees, there is no wall; a sharper
+    Where the first face is not opposite, as near an edge of more than 37 degrees, there is no wall; a sharper
     edge is one that gets thin.
     """
     vectors = area_vectors(part)

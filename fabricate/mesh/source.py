@@ -41,11 +41,20 @@ def source_mesh(source: SourceConfig) -> PolygonMesh:
         with its path; or if a shape cannot be made with these keys.
     """
     if isinstance(source, FileConfig):
-        return _mesh_in_file(source.file)
+        return read_closed(source.file)
     return checked_closed(_shape(source))
 
 
-def _mesh_in_file(path: Path) -> PolygonMesh:
+def read_closed(path: Path) -> PolygonMesh:
+    """Read an OBJ, OFF, PLY or STL file, polygons kept, that holds one closed, orientable 2-manifold.
+
+    Raises
+    ------
+    ReadError
+        If the file is missing, damaged or no mesh.
+    MeshError
+        If it is not closed, not a manifold or not in one piece; the message says where.
+    """
     mesh = read_mesh(path)
     try:
         return checked_closed(mesh)

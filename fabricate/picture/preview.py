@@ -19,7 +19,7 @@ MARGIN = 0.10  # of a cell's width or height, on each side
 SPREAD = 0.6  # how far shadows may reach out of a cell, in its widths and heights
 
 
-def preview_image(parts: Sequence[Part], *, width: int = 1600, height: int = 800) -> Image.Image:
+def preview_image(parts: Sequence[Part], *, width: int = 1200, height: int = 600) -> Image.Image:
     """Return a picture of the parts: seated on the left, pulled apart on the right, at one scale.
 
     Pulled apart, each part is seen from where it was seen in its seat, and none hides another: they

@@ -16,12 +16,19 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, frozen
-from fabricate.solid.layers import flipped, layer, wall
+from fabricate.solid.facing import wall_gaps
+from fabricate.solid.layers import Layer, flipped, layer, wall
 from fabricate.solid.part import Part
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.normals import unit
 
 Core: TypeAlias = Literal["hollow", "yellow", "blue"]
+
+CORRECTIONS, MOST_ADDED = 4, 1.25
+"""How often walls that are too near are moved apart, and by which factor at most each time."""
+
+NOTHING_MISSING = 1.01
+"""Clearance over measured gap from which on walls are moved apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,16 +92,14 @@ class _Blocks(NamedTuple):
 def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core) -> Assembly:
     """Build both parts between the surface and the points `inner`, (n, 3), one under each of its points, mm."""
     n = len(surface.points)
-    down = unit(inner - surface.points)
-    outer, inner_layer = (layer(surface, p, down, clearance=clearance) for p in (surface.points, inner))
-    blocks = [outer.yellow, inner_layer.yellow]
-    yellow_at = blue_at = whole_at = _Blocks(0, n, n)
-    if clearance > 0.0:
-        blocks += [outer.blue, inner_layer.blue, surface.points, inner]
+    if clearance == 0.0:
+        yellow_at = blue_at = whole_at = _Blocks(0, n, n)
+        blocks = [surface.points, inner]
+    else:
+        outer_layer, inner_layer, floor = _layers(surface, inner, clearance)
+        blocks = [outer_layer.yellow, inner_layer.yellow, outer_layer.blue, inner_layer.blue, surface.points, inner]
+        blocks += [floor.yellow, floor.blue] if core != "hollow" else []
         yellow_at, blue_at, whole_at = _Blocks(0, n, 6 * n), _Blocks(2 * n, 3 * n, 7 * n), _Blocks(4 * n, 5 * n, 5 * n)
-    if clearance > 0.0 and core != "hollow":
-        floor = layer(surface, inner + clearance * down, down, clearance=clearance)
-        blocks += [floor.yellow, floor.blue]
     yellow_outside, yellow_facing = _faces(surface, yellow_at, surface.yellow, core, own="yellow")
     blue_outside, blue_facing = _faces(surface, blue_at, ~surface.yellow, core, own="blue")
     return Assembly(
@@ -107,6 +112,29 @@ def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core
         _shell(surface, whole_at, core),
         n,
     )
+
+
+def _layers(surface: CutSurface, inner: Floats, clearance: float) -> tuple[Layer, Layer, Layer]:
+    """Return the outer layer, the inner one and the floor.
+
+    Where walls lean or twist they are nearer to each other than their edges: there the edges are moved
+    further apart, by as much as is missing, a few times.
+    """
+    down = unit(inner - surface.points)
+    wanted = np.full(len(surface.curve), clearance)
+    depths = (surface.points, inner, inner + clearance * down)
+    for _ in range(CORRECTIONS):
+        outer_layer, inner_layer = (layer(surface, p, down, clearance=wanted) for p in depths[:2])
+        missing = clearance / np.maximum(wall_gaps(outer_layer, inner_layer, surface.curve), 1e-9)
+        if missing.max() <= NOTHING_MISSING:
+            break
+        wanted = wanted * np.clip(_widened(missing), 1.0, MOST_ADDED)
+    return outer_layer, inner_layer, layer(surface, depths[2], down, clearance=wanted)
+
+
+def _widened(values: Floats) -> Floats:
+    """Return for each curve point the largest value among it and its neighbours."""
+    return np.maximum.reduce([values, np.roll(values, 1), np.roll(values, -1)])
 
 
 def _faces(

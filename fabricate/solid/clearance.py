@@ -60,8 +60,8 @@ def ray_sides(surface: CutSurface, points: Floats) -> RaySides:
     return RaySides(rays[:, middle:], rays[:, middle::-1])
 
 
-def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearance: float) -> Shares:
-    """Return how far to move each copy, for a clearance in mm.
+def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearance: Floats) -> Shares:
+    """Return how far to move each copy, for the clearance at each curve point, (c,) mm.
 
     `normals` and `down`, (c, 3), are unit vectors at the curve's points: the surface's, and the way the wall
     goes from there. Where even the farthest move is not enough, the gap stays smaller; the tests of the

@@ -23,14 +23,12 @@ class Layer:
     blue: Floats
 
 
-def layer(surface: CutSurface, points: Floats, down: Floats, *, clearance: float) -> Layer:
+def layer(surface: CutSurface, points: Floats, down: Floats, *, clearance: Floats) -> Layer:
     """Return the two copies of the surface moved to `points`, apart by the clearance along the curve.
 
     In each copy the curve has moved along its rays, and the rest of the rays has closed up behind it. `down`,
-    (n, 3), are unit vectors along the wall under each point.
+    (n, 3), are unit vectors along the wall under each point; `clearance`, (c,), is in mm at each curve point.
     """
-    if clearance == 0.0:
-        return Layer(points, points)
     normals = vertex_normals(points, surface.triangles)[surface.curve]
     sides = ray_sides(surface, points)
     shares = clearance_shares(sides, normals, down[surface.curve], clearance=clearance)

@@ -20,6 +20,7 @@ from fabricate.solid.clearance import clearance_shares, ray_sides, too_near
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
 from fabricate.surface.normals import unit
+from fabricate.surface.resolution import resolution_for
 
 ENOUGH = 0.99
 """Share of the clearance that copies of the curve must be apart."""
@@ -29,6 +30,23 @@ BENEATH = 0.08
 
 ROUNDS, STEP = 40, 0.25
 """Rounds of measuring and sliding, and the share of the way to the mean that points move in each."""
+
+
+def fitted_cut(
+    duotone: Duotone, *, arc: float = 0.5, tolerance: float = 0.05, clearance: float = 0.0
+) -> CutSurface:
+    """Cut the limit surface of a duotone as finely as `tolerance` asks for, with room for `clearance`; both mm.
+
+    `arc` is where the curve crosses tile sides, from their yellow ends, between 0.293 and 0.707.
+
+    Raises
+    ------
+    PatternError
+        If the arc position is out of range, the tolerance would need too many triangles, or the duotone has
+        more than one curve.
+    """
+    resolution = resolution_for(duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance)
+    return settled(duotone, clearance=clearance, arc=arc, resolution=resolution)
 
 
 def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) -> CutSurface:
@@ -48,12 +66,12 @@ def tight_tiles(surface: CutSurface, *, clearance: float) -> Mask:
     """Return the tiles, (t,) bool, in which copies of the curve cannot be moved `clearance` mm apart."""
     count = len(surface.curve)
     upright = surface.normals[surface.curve]
-    enough, everywhere = np.full(count, ENOUGH * clearance), np.arange(count)
+    wanted, everywhere = np.full(count, clearance), np.arange(count)
     near: Mask = np.zeros(count, dtype=bool)
     for depth in (0.0, BENEATH):
         sides = ray_sides(surface, surface.points - depth * surface.normals)
-        shares = clearance_shares(sides, upright, -upright, clearance=clearance)
-        near |= too_near(sides, shares, enough, suspects=everywhere)
+        shares = clearance_shares(sides, upright, -upright, clearance=wanted)
+        near |= too_near(sides, shares, ENOUGH * wanted, suspects=everywhere)
     tight: Mask = np.zeros(len(surface.order) // 2, dtype=bool)
     tight[surface.order[near.reshape(len(surface.order), -1).any(axis=1)] // 2] = True
     return tight
