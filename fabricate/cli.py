@@ -71,9 +71,7 @@ def _print_version(asked: bool) -> None:
 def _options(
     _version: Annotated[
         bool,
-        typer.Option(
-            "--version", callback=_print_version, is_eager=True, help="Print the version and leave."
-        ),
+        typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and leave."),
     ] = False,
 ) -> None:
     pass
@@ -81,9 +79,7 @@ def _options(
 
 @app.command()
 def run(
-    configs: Annotated[
-        list[Path], typer.Argument(metavar="CONFIG", help="TOML files; `fabricate new` writes one.")
-    ],
+    configs: Annotated[list[Path], typer.Argument(metavar="CONFIG", help="TOML files; `fabricate new` writes one.")],
     out: Annotated[Path, typer.Option(help="Folder that gets one folder per config.")] = Path("outputs"),
     settings: Annotated[
         list[str] | None,
@@ -99,9 +95,7 @@ def run(
 
 @app.command()
 def check(
-    paths: Annotated[
-        list[Path], typer.Argument(metavar="DIR|STL", help="A folder that `run` made, or STL files.")
-    ],
+    paths: Annotated[list[Path], typer.Argument(metavar="DIR|STL", help="A folder that `run` made, or STL files.")],
     json_file: Annotated[
         Path | None,
         typer.Option("--json", metavar="FILE", dir_okay=False, help="Write the report here as well."),

@@ -52,9 +52,7 @@ def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]
     duotone = grown_duotone(quads, tree=pattern.tree, seed=pattern.seed)
     certificate = certified(duotone)
     watch.begin("cut")
-    surface = fitted_cut(
-        duotone, arc=pattern.arc, tolerance=solid.tolerance, clearance=solid.clearance
-    )
+    surface = fitted_cut(duotone, arc=pattern.arc, tolerance=solid.tolerance, clearance=solid.clearance)
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
     with complete_folder(out / name) as folder:

@@ -63,14 +63,8 @@ _FDM = Process(
     crack_closed=0.098,
     line_width=0.4,
 )
-_SLA = Process(
-    name="sla", captive_gap=0.25, wall_min=0.5, wall_default=1.5, feature_min=0.5, hole_min=3.5, holes_min=1
-)
-_SLS = Process(
-    name="sls", captive_gap=0.5, wall_min=0.7, wall_default=2.0, feature_min=0.5, hole_min=3.5, holes_min=1
-)
-_MJF = Process(
-    name="mjf", captive_gap=0.5, wall_min=1.0, wall_default=2.0, feature_min=0.5, hole_min=2.0, holes_min=2
-)
+_SLA = Process(name="sla", captive_gap=0.25, wall_min=0.5, wall_default=1.5, feature_min=0.5, hole_min=3.5, holes_min=1)
+_SLS = Process(name="sls", captive_gap=0.5, wall_min=0.7, wall_default=2.0, feature_min=0.5, hole_min=3.5, holes_min=1)
+_MJF = Process(name="mjf", captive_gap=0.5, wall_min=1.0, wall_default=2.0, feature_min=0.5, hole_min=2.0, holes_min=2)
 
 PROCESSES: Mapping[str, Process] = MappingProxyType({p.name: p for p in (_FDM, _SLA, _SLS, _MJF)})

@@ -121,10 +121,7 @@ def with_split_edges(mesh: PolygonMesh, rng: np.random.Generator, *, count: int)
     edges = [edge for edge in directed_edges(faces) if edge[0] < edge[1]]
     points = mesh.points
     for a, b in rng.permutation(edges)[:count].tolist():
-        faces = [
-            _with_point_between(_with_point_between(face, a, b, len(points)), b, a, len(points))
-            for face in faces
-        ]
+        faces = [_with_point_between(_with_point_between(face, a, b, len(points)), b, a, len(points)) for face in faces]
         points = np.concatenate([points, [0.55 * points[a] + 0.55 * points[b]]])
     return PolygonMesh.from_faces(points, faces)
 
@@ -160,9 +157,7 @@ def surfaces() -> st.SearchStrategy[PolygonMesh]:
 def quad_meshes() -> st.SearchStrategy[QuadMesh]:
     """Draw the tiles of a closed mesh of any genus up to 6; some tiles share both yellow corners."""
     ready = [beads(2), beads(3), beads(7), cube(divisions=1), cube(divisions=4), HANDLES["even torus"][0]]
-    return st.one_of(
-        surfaces().map(lambda mesh: subdivided(mesh, levels=1)), st.sampled_from(ready).map(two_coloured)
-    )
+    return st.one_of(surfaces().map(lambda mesh: subdivided(mesh, levels=1)), st.sampled_from(ready).map(two_coloured))
 
 
 def named() -> dict[str, PolygonMesh]:

@@ -55,8 +55,6 @@ def test_transposed_arrays_become_contiguous() -> None:
         ((0,), (4,), r"shape \(4\), found \(0,\)"),
     ],
 )
-def test_another_shape_is_an_error(
-    found: tuple[int, ...], wanted: tuple[int | None, ...], message: str
-) -> None:
+def test_another_shape_is_an_error(found: tuple[int, ...], wanted: tuple[int | None, ...], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         frozen(np.zeros(found), np.float64, wanted)

@@ -33,9 +33,7 @@ class FakeReport:
     checks: tuple[FakeCheck, ...] = ()
 
 
-FAILED = FakeReport(
-    False, (FakeCheck(ok=False, message="gap is 0.1 mm", where=((1.0, 2.0, 3.5), (0.0, 0.0, 0.0))),)
-)
+FAILED = FakeReport(False, (FakeCheck(ok=False, message="gap is 0.1 mm", where=((1.0, 2.0, 3.5), (0.0, 0.0, 0.0))),))
 
 
 @dataclass(frozen=True)
@@ -121,9 +119,7 @@ def test_a_wrong_config_is_status_2_and_one_line(
     assert not Path("outputs").exists()
 
 
-@pytest.mark.parametrize(
-    "error", [MeshError("4 open edges"), ReadError("not a mesh"), OutputError("disk full")]
-)
+@pytest.mark.parametrize("error", [MeshError("4 open edges"), ReadError("not a mesh"), OutputError("disk full")])
 def test_whatever_a_run_raises_on_purpose_is_one_line(
     call: Call, monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
@@ -165,9 +161,7 @@ def broken(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("broken")
 @pytest.mark.parametrize(("command", "where"), [("run", ", while making good.toml"), ("check", "")])
-def test_a_mistake_of_the_program_is_one_line_that_asks_for_a_report(
-    call: Call, command: str, where: str
-) -> None:
+def test_a_mistake_of_the_program_is_one_line_that_asks_for_a_report(call: Call, command: str, where: str) -> None:
     said = call(command, "good.toml")
     assert (said.status, said.out, said.err.count("\n")) == (2, "", 1)
     start = f"fabricate: internal error: ZeroDivisionError: float division by zero{where}; please report it"
@@ -219,9 +213,7 @@ CHECKS = (
 
 
 @pytest.mark.parametrize(("ok", "status"), [(True, 0), (False, 1)])
-def test_check_prints_a_line_per_check(
-    call: Call, monkeypatch: pytest.MonkeyPatch, ok: bool, status: int
-) -> None:
+def test_check_prints_a_line_per_check(call: Call, monkeypatch: pytest.MonkeyPatch, ok: bool, status: int) -> None:
     monkeypatch.setattr(cli, "check_parts", lambda *_, **__: FakeReport(ok, CHECKS))
     said = call("check", "a.stl", "b.stl")
     assert said.status == status
@@ -237,9 +229,7 @@ def test_files_and_folders_are_passed_on_as_they_are(
     call: Call, monkeypatch: pytest.MonkeyPatch, option: tuple[str, ...], mm: float | None
 ) -> None:
     asked = []
-    monkeypatch.setattr(
-        cli, "check_parts", lambda *args, **options: asked.append((args, options)) or FakeReport()
-    )
+    monkeypatch.setattr(cli, "check_parts", lambda *args, **options: asked.append((args, options)) or FakeReport())
     assert call("check", "a.stl", "outputs/first", *option).status == 0
     assert asked == [(([Path("a.stl"), Path("outputs/first")],), {"clearance": mm})]
 
@@ -267,9 +257,7 @@ def test_parts_that_cannot_be_read_are_one_line(call: Call, monkeypatch: pytest.
     assert (said.status, said.out, said.err) == (2, "", "fabricate: a.stl: no such file\n")
 
 
-def test_new_writes_a_config_that_runs_and_keeps_an_old_one(
-    call: Call, made: list[dict[str, object]]
-) -> None:
+def test_new_writes_a_config_that_runs_and_keeps_an_old_one(call: Call, made: list[dict[str, object]]) -> None:
     said = call("new", "first")
     assert (said.status, said.out) == (0, "first.toml: written\n")
     assert load_config(Path("first.toml"))

@@ -153,9 +153,7 @@ def _pooled(
     return outcomes
 
 
-def _as_ended(
-    futures: Iterable[Future[Outcome]], stages: _Stages, listener: Listener
-) -> Iterator[Future[Outcome]]:
+def _as_ended(futures: Iterable[Future[Outcome]], stages: _Stages, listener: Listener) -> Iterator[Future[Outcome]]:
     """Yield futures as they end, and meanwhile tell the listener of the stages that workers begin."""
     pending = set(futures)
     while pending:
@@ -177,9 +175,7 @@ def _made_in_worker(order: _Order, stages: _Stages) -> Outcome:
 
 def _made(order: _Order, progress: Callable[[str], None]) -> Outcome:
     try:
-        report = run(
-            load_config(order.path, order.overrides), name=order.name, out=order.out, progress=progress
-        )
+        report = run(load_config(order.path, order.overrides), name=order.name, out=order.out, progress=progress)
     except FabricateError as error:
         return Outcome(order.name, 2, str(error))
     except MemoryError:

@@ -162,7 +162,5 @@ def _judged_part(part: Part, expectations: Expectations) -> _JudgedPart:
 
 
 def _judged_together(judged: Sequence[_JudgedPart], expectations: Expectations) -> Fit:
-    solids = {
-        each.part.name: Solid.of(each.part, each.manifold) for each in judged if is_solid(each.manifold)
-    }
+    solids = {each.part.name: Solid.of(each.part, each.manifold) for each in judged if is_solid(each.manifold)}
     return fit([each.part for each in judged], solids, expectations)

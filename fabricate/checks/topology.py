@@ -198,9 +198,7 @@ def genus_check(part: Part, genus: int | None, *, expected: int | None) -> Check
     if expected is None:
         message = f"{part.name} has genus {genus}; none was expected"
         return Check(code, ok=False, skipped=True, message=message)
-    return Check(
-        code, ok=genus == expected, message=f"{part.name} must have genus {expected}, and it has {genus}"
-    )
+    return Check(code, ok=genus == expected, message=f"{part.name} must have genus {expected}, and it has {genus}")
 
 
 def component_labels(part: Part, edges: Edges) -> Indices:

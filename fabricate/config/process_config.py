@@ -17,9 +17,7 @@ class ProcessConfig(Section):
     """Printing process."""
 
 
-PROCESS_DEFAULTS: Mapping[str, str] = MappingProxyType(
-    {"thickness": "wall_default", "clearance": "gap_default"}
-)
+PROCESS_DEFAULTS: Mapping[str, str] = MappingProxyType({"thickness": "wall_default", "clearance": "gap_default"})
 """Keys of [solid] whose default is the process' own, and the attribute of `Process` that holds it."""
 
 
@@ -30,9 +28,7 @@ def with_process_defaults(document: object) -> object:
     solid, process = document.get("solid", {}), _process(document.get("process", {}))
     if not isinstance(solid, dict) or process is None:
         return document
-    defaults = {
-        key: format_length(getattr(process, attribute)) for key, attribute in PROCESS_DEFAULTS.items()
-    }
+    defaults = {key: format_length(getattr(process, attribute)) for key, attribute in PROCESS_DEFAULTS.items()}
     return {**document, "solid": {**defaults, **solid}}
 
 

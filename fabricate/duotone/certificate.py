@@ -56,28 +56,23 @@ class Certificate:
 def certified(duotone: Duotone) -> Certificate:
     """Count curves, components and Euler characteristics; nothing is assumed of how the tiles were chosen.
 
-    Each tile corner owns a sector of its tile. Sectors of equal colour are glued across tile sides, and
-    across a tile where it is joined: the classes are the regions' connected components.
+    The part of a region round one of its points is connected; a tile connects two of these parts where it is
+    joined. The classes are the regions' connected components.
     """
     curves = count_curves(duotone)
-    labels = _sector_components(duotone)
-    is_yellow = np.arange(len(labels)) % 2 == 0
-    yellow = _facts(duotone, labels[is_yellow], duotone.quads.yellow, duotone.joined, curves)
-    blue = _facts(duotone, labels[~is_yellow], ~duotone.quads.yellow, ~duotone.joined, curves)
+    labels, is_yellow = _point_components(duotone), duotone.quads.yellow
+    yellow = _facts(duotone, labels[is_yellow], is_yellow, duotone.joined, curves)
+    blue = _facts(duotone, labels[~is_yellow], ~is_yellow, ~duotone.joined, curves)
     return Certificate(curves, yellow, blue, duotone.quads.genus)
 
 
-def _sector_components(duotone: Duotone) -> Indices:
-    """Return a component label for each sector 4 t + k."""
-    sectors = np.arange(len(duotone.quads.twins))
-    beyond = duotone.quads.twins
-    across = beyond + 1 - 4 * (beyond % 4 == 3)
-    crossing = 4 * np.arange(len(duotone.joined)) + ~duotone.joined
-    rows = np.concatenate([sectors, crossing])
-    columns = np.concatenate([across, crossing + 2])
-    glue = csr_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(len(sectors), len(sectors)))
-    labels: Indices = connected_components(glue, directed=False)[1]
-    return labels
+def _point_components(duotone: Duotone) -> Indices:
+    """Return a component label for each point: each tile joins two of its corners, of one colour."""
+    tiles, joined = duotone.quads.tiles, duotone.joined
+    begin, end = (np.where(joined, tiles[:, k], tiles[:, k + 1]) for k in (0, 2))
+    shape = 2 * (len(duotone.quads.points),)
+    glue = csr_array((np.ones(len(tiles), dtype=np.int8), (begin, end)), shape=shape)
+    return connected_components(glue, directed=False)[1].astype(np.int64)
 
 
 def _facts(duotone: Duotone, labels: Indices, own: Mask, joined: Mask, curves: int) -> RegionFacts:

@@ -82,35 +82,34 @@ def two_coloured(mesh: PolygonMesh) -> QuadMesh:
         )
     connectivity = half_edges(mesh)
     tail, head = connectivity.tail, connectivity.tail[connectivity.following]
-    yellow = _colours(tail, head, len(mesh.points))
     quads = mesh.corners.reshape(-1, 4)
+    yellow = _colours(quads, tail, head, len(mesh.points))
     turned = ~yellow[quads[:, 0]]
     sides = np.arange(len(mesh.corners)).reshape(-1, 4)
-    sides = np.where(turned[:, None], np.roll(sides, -1, axis=1), sides).ravel()
-    renumbered = np.zeros_like(sides)
-    renumbered[sides] = np.arange(len(sides))
-    twins = renumbered[connectivity.twin[sides]]
-    return QuadMesh(mesh.points, mesh.corners[sides].reshape(-1, 4), twins, yellow)
+    old = np.where(turned[:, None], np.roll(sides, -1, axis=1), sides).ravel()
+    renumbered = np.zeros_like(old)
+    renumbered[old] = np.arange(len(old))
+    twins = renumbered[connectivity.twin[old]]
+    return QuadMesh(mesh.points, mesh.corners[old].reshape(-1, 4), twins, yellow)
 
 
-def _colours(tail: Indices, head: Indices, count: int) -> Mask:
-    """Return which points share point 0's colour, by the bipartite double cover of the edge graph.
+def _colours(quads: Indices, tail: Indices, head: Indices, count: int) -> Mask:
+    """Return which points share point 0's colour, from the graph of the quads' diagonals.
 
-    The cover has two copies of every point and joins opposite copies along edges: a graph is bipartite
-    exactly when no point is connected to its own other copy.
+    All neighbours of a point are connected along diagonals, so on a connected surface this graph has two
+    components, which are the colours, or only one: then some edge joins equals and an odd cycle exists.
     """
-    rows = np.concatenate([tail, tail + count])
-    columns = np.concatenate([head + count, head])
-    cover = coo_array((np.ones(len(rows)), (rows, columns)), shape=(2 * count, 2 * count))
-    labels = connected_components(cover, directed=False)[1]
-    if (labels[:count] == labels[count:]).any():
+    rows, columns = quads[:, :2].ravel(), quads[:, 2:].ravel()
+    diagonals = coo_array((np.ones(len(rows)), (rows, columns)), shape=(count, count))
+    components, labels = connected_components(diagonals, directed=False)
+    if components == 1:
         cycle = _odd_cycle(tail, head, count)
         names = " - ".join(str(point) for point in [*cycle, cycle[0]])
         raise PatternError(
             f"the quads cannot be coloured in two colours: points {names} form an odd cycle of "
             f"{len(cycle)} edges; use levels = 1 or more"
         )
-    same: Mask = labels[:count] == labels[0]
+    same: Mask = labels == labels[0]
     return same
 
 

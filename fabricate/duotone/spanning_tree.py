@@ -57,8 +57,8 @@ def weighted_duotone(quads: QuadMesh, weights: Floats) -> Duotone:
     """
     if weights.shape != (len(quads.tiles),) or not np.isfinite(weights).all():
         raise PatternError(
-            f"expected one finite weight for each of the {len(quads.tiles)} tiles, "
-            f"found an array of shape {weights.shape}"
+            f"expected one finite weight for each of the {len(quads.tiles)} tiles, found an array of shape "
+            f"{weights.shape} with {int((~np.isfinite(weights)).sum())} weights that are not finite"
         )
     return _lightest(quads, np.argsort(weights, kind="stable"))
 
@@ -67,14 +67,14 @@ def breadth_first_duotone(quads: QuadMesh, *, root: int) -> Duotone:
     """Join the breadth-first tree from yellow point `root`: corridors that radiate from there."""
     graph = _yellow_graph(quads, np.arange(len(quads.tiles)))
     parent = breadth_first_order(_symmetric(graph), _checked_root(quads, root))[1]
-    return _from_parents(quads, graph, parent)
+    return _from_parents(quads, graph, parent.astype(np.int64))
 
 
 def depth_first_duotone(quads: QuadMesh, *, root: int) -> Duotone:
     """Join the depth-first tree from yellow point `root`: one long winding corridor."""
     graph = _yellow_graph(quads, np.arange(len(quads.tiles)))
     parent = depth_first_order(_symmetric(graph), _checked_root(quads, root))[1]
-    return _from_parents(quads, graph, parent)
+    return _from_parents(quads, graph, parent.astype(np.int64))
 
 
 def seeded_root(quads: QuadMesh, *, seed: int) -> int:
@@ -97,13 +97,17 @@ def _yellow_graph(quads: QuadMesh, order: Indices) -> _YellowGraph:
 
 
 def _lightest(quads: QuadMesh, order: Indices) -> Duotone:
-    graph = _yellow_graph(quads, order)
+    low, high = np.sort(quads.tiles[:, [0, 2]], axis=1).T
+    nodes, tiles = len(quads.points), len(order)
     # weights are ranks counted from 1: an explicit zero would vanish from a sparse graph
-    rank = np.arange(1, len(graph.tiles) + 1)
-    matrix = csr_array((rank, (graph.low, graph.high)), shape=(graph.nodes, graph.nodes))
-    tree = minimum_spanning_tree(matrix)
-    joined: Mask = np.zeros(len(quads.tiles), dtype=bool)
-    joined[graph.tiles[np.rint(tree.data).astype(np.int64) - 1]] = True
+    rank = np.zeros(tiles)
+    rank[order] = np.arange(1, tiles + 1)
+    # row by row, so that parallel tiles stay entries of their own; built from pairs they would be summed
+    by_row = np.argsort(low, kind="stable")
+    begins = np.searchsorted(low[by_row], np.arange(nodes + 1))
+    tree = minimum_spanning_tree(csr_array((rank[by_row], high[by_row], begins), shape=(nodes, nodes)))
+    joined: Mask = np.zeros(tiles, dtype=bool)
+    joined[order[np.rint(tree.data).astype(np.int64) - 1]] = True
     return Duotone(quads, joined)
 
 
@@ -115,7 +119,7 @@ def _symmetric(graph: _YellowGraph) -> csr_array:
 
 def _from_parents(quads: QuadMesh, graph: _YellowGraph, parent: Indices) -> Duotone:
     child = np.flatnonzero(parent >= 0)
-    above = parent[child].astype(np.int64)
+    above = parent[child]
     keys = np.minimum(child, above) * graph.nodes + np.maximum(child, above)
     known = graph.low * graph.nodes + graph.high
     order = np.argsort(known)

@@ -124,13 +124,9 @@ def _inner_edges(mesh: PolygonMesh, edges: _Edges) -> _InnerEdges:
 
 def _check_numbers(mesh: PolygonMesh) -> None:
     if len(mesh.offsets) < 2:
-        raise MeshError(
-            f"a closed surface was expected, but the mesh has no faces, only {len(mesh.points)} points"
-        )
+        raise MeshError(f"a closed surface was expected, but the mesh has no faces, only {len(mesh.points)} points")
     if (mesh.face_sizes < 3).any():
-        raise MeshError(
-            f"{_count((mesh.face_sizes < 3).sum(), 'face')} with fewer than 3 corners; remove them"
-        )
+        raise MeshError(f"{_count((mesh.face_sizes < 3).sum(), 'face')} with fewer than 3 corners; remove them")
     if mesh.corners.min() < 0 or mesh.corners.max() >= len(mesh.points):
         raise MeshError(
             f"faces refer to points {mesh.corners.min()} to {mesh.corners.max()}, "
@@ -256,9 +252,7 @@ def _sheets(mesh: PolygonMesh, inner: _InnerEdges) -> tuple[Indices, Indices]:
 def _check_one_fan_per_point(mesh: PolygonMesh, inner: _InnerEdges) -> None:
     side, twin = inner.sides.T
     following = mesh.next_corner
-    links = np.concatenate(
-        [np.column_stack([side, following[twin]]), np.column_stack([following[side], twin])]
-    )
+    links = np.concatenate([np.column_stack([side, following[twin]]), np.column_stack([following[side], twin])])
     _, firsts = np.unique(_components(len(mesh.corners), links), return_index=True)
     fans = np.bincount(mesh.corners[firsts], minlength=len(mesh.points))
     pinched = np.flatnonzero(fans > 1)
@@ -295,9 +289,7 @@ def _reversed(mesh: PolygonMesh) -> PolygonMesh:
     """Return the mesh with every face wound the other way, beginning with the same corner."""
     begins = mesh.offsets[mesh.face_of_corner]
     places = np.arange(len(mesh.corners)) - begins
-    return PolygonMesh(
-        mesh.points, mesh.corners[begins + -places % mesh.face_sizes[mesh.face_of_corner]], mesh.offsets
-    )
+    return PolygonMesh(mesh.points, mesh.corners[begins + -places % mesh.face_sizes[mesh.face_of_corner]], mesh.offsets)
 
 
 def _components(nodes: int, links: Indices) -> Indices:

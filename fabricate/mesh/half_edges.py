@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from fabricate.arrays import Indices, frozen
 from fabricate.mesh.polygon_mesh import PolygonMesh
@@ -49,14 +50,14 @@ class HalfEdges:
 def twin_half_edges(tail: Indices, head: Indices) -> Indices:
     """Return for each half-edge the one that runs the other way along the same edge, (h,) int.
 
-    The mesh must be closed and consistently oriented (see `checked_closed`): each edge then has exactly
-    two half-edges, and equal keys stand next to each other once sorted.
+    The mesh must be closed and consistently oriented (see `checked_closed`): the matrix that holds the
+    number of each half-edge at (tail, head) then has the same pattern as its transpose.
     """
-    low, high = np.minimum(tail, head), np.maximum(tail, head)
-    order = np.argsort(low * (int(high.max(initial=0)) + 1) + high)
-    twin = np.zeros_like(order)
-    twin[order[0::2]] = order[1::2]
-    twin[order[1::2]] = order[0::2]
+    count = int(tail.max(initial=-1)) + 1
+    number = csr_array((np.arange(len(tail)), (tail, head)), shape=(count, count))
+    number.sort_indices()
+    twin = np.zeros(len(tail), dtype=np.int64)
+    twin[number.data] = number.T.tocsr().data
     return twin
 
 

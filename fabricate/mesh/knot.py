@@ -33,8 +33,7 @@ def trefoil(*, around: int, across: int, tube: float) -> PolygonMesh:
     """
     if around < 24 or across < 3:
         raise MeshError(
-            f"knot: around must be 24 or more and across 3 or more, found {around} and {across}: "
-            "ask for more quads"
+            f"knot: around must be 24 or more and across 3 or more, found {around} and {across}: ask for more quads"
         )
     thickest = _THICKEST * limit_radius(across)
     if not 0 < tube <= thickest:

@@ -172,9 +172,7 @@ def _hexagons(cells: Sequence[tuple[int, int]]) -> PolygonMesh:
     lattice = (np.array(cells)[:, None] + steps).reshape(-1, 2)
     names, corners = np.unique(lattice, axis=0, return_inverse=True)
     names = names - np.mean(cells, axis=0)
-    points = np.stack(
-        [names.sum(axis=1) * 3**0.5 / 2, (names[:, 1] - names[:, 0]) / 2, np.zeros(len(names))], axis=1
-    )
+    points = np.stack([names.sum(axis=1) * 3**0.5 / 2, (names[:, 1] - names[:, 0]) / 2, np.zeros(len(names))], axis=1)
     return PolygonMesh(points, corners.ravel(), np.arange(0, len(lattice) + 1, 6))
 
 

@@ -71,9 +71,7 @@ def _byte_order(statements: list[tuple[int, list[str]]]) -> str:
     for number, words in statements:
         if words[:1] == ["format"]:
             if len(words) < 2 or words[1] not in _BYTE_ORDERS:
-                raise ReadError(
-                    f"line {number}: the format was expected to be one of {', '.join(_BYTE_ORDERS)}"
-                )
+                raise ReadError(f"line {number}: the format was expected to be one of {', '.join(_BYTE_ORDERS)}")
             return _BYTE_ORDERS[words[1]]
     raise ReadError("the PLY header was expected to have a line 'format', found none")
 

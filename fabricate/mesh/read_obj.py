@@ -26,9 +26,7 @@ def read_obj(content: bytes) -> PolygonMesh:
     points = number_rows(_statements(text, b"v"))
     faces = number_rows(re.sub(rb"/\S*", b"", _statements(text, b"f")))
     _check_sizes(text, points, faces)
-    return PolygonMesh(
-        points.values[points.offsets[:-1, None] + np.arange(3)], _corners(points, faces), faces.offsets
-    )
+    return PolygonMesh(points.values[points.offsets[:-1, None] + np.arange(3)], _corners(points, faces), faces.offsets)
 
 
 def _logical_lines(content: bytes) -> bytes:
@@ -55,15 +53,11 @@ def _check_sizes(text: bytes, points: NumberRows, faces: NumberRows) -> None:
         raise ReadError(f"line {line}: numbers were expected after '{bare[0].strip().decode()}', found none")
     if not len(faces.lines):
         strokes = len(re.findall(rb"(?m)^[^\S\n]*l(?!\S)", text))
-        raise ReadError(
-            f"faces ('f') were expected, found only {len(points.lines)} points and {strokes} lines"
-        )
+        raise ReadError(f"faces ('f') were expected, found only {len(points.lines)} points and {strokes} lines")
     for rows, name in ((points, "a point with 3 coordinates"), (faces, "a face with at least 3 corners")):
         if (rows.sizes < 3).any():
             short = np.argmax(rows.sizes < 3)
-            raise ReadError(
-                f"line {rows.lines[short]}: {name} was expected, found {rows.sizes[short]} numbers"
-            )
+            raise ReadError(f"line {rows.lines[short]}: {name} was expected, found {rows.sizes[short]} numbers")
 
 
 def _corners(points: NumberRows, faces: NumberRows) -> Indices:

@@ -90,9 +90,7 @@ def _list_items(body: PlyBody, column: PlyColumn) -> Indices:
     items = body.read(places, column.declared.kind)
     if not whole(items).all():
         wrong = np.argmin(whole(items))
-        raise ReadError(
-            f"{body.where(int(places[wrong]))}: a point index was expected, found {items[wrong]:g}"
-        )
+        raise ReadError(f"{body.where(int(places[wrong]))}: a point index was expected, found {items[wrong]:g}")
     return items.astype(np.int64)
 
 

@@ -54,9 +54,7 @@ def _triangle_count(content: bytes) -> int:
 
 def _not_stl(content: bytes) -> str:
     if len(content) < _HEADER_BYTES:
-        return (
-            f"an STL file was expected, but {len(content)} bytes are too few for one and 'facet' is missing"
-        )
+        return f"an STL file was expected, but {len(content)} bytes are too few for one and 'facet' is missing"
     return (
         f"the header declares {_triangle_count(content)} triangles, which take {_binary_size(content)} "
         f"bytes, but the file has {len(content)}; it is cut off or not an STL file"

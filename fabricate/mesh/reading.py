@@ -109,9 +109,7 @@ def _reader(content: bytes, suffix: str) -> Callable[[bytes], PolygonMesh]:
     if suffix.lower() in _READERS:
         return _READERS[suffix.lower()]
     kind = f"a file named '{suffix}'" if suffix else "a file without an extension"
-    raise ReadError(
-        f"an OBJ, OFF, PLY or STL mesh was expected, found {kind} whose contents are none of these"
-    )
+    raise ReadError(f"an OBJ, OFF, PLY or STL mesh was expected, found {kind} whose contents are none of these")
 
 
 def _usable(mesh: PolygonMesh) -> PolygonMesh:
@@ -137,8 +135,7 @@ def _check_faces(mesh: PolygonMesh) -> None:
     if (mesh.face_sizes < 3).any():
         face = int(np.argmax(mesh.face_sizes < 3))
         raise ReadError(
-            f"face {face + 1} of {count} was expected to have at least 3 corners, "
-            f"found {mesh.face_sizes[face]}"
+            f"face {face + 1} of {count} was expected to have at least 3 corners, found {mesh.face_sizes[face]}"
         )
     outside = (mesh.corners < 0) | (mesh.corners >= len(mesh.points))
     if outside.any():

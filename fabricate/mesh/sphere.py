@@ -41,13 +41,9 @@ def sphere(*, faces: SphereFaces, frequency: int = 1) -> PolygonMesh:
         "octagons": truncated_cuboctahedron,
     }
     if faces not in solids:
-        raise MeshError(
-            f"sphere: faces must be triangles, {', '.join(solids)}, found {faces!r}: choose one of them"
-        )
+        raise MeshError(f"sphere: faces must be triangles, {', '.join(solids)}, found {faces!r}: choose one of them")
     if frequency != 1:
-        raise MeshError(
-            f"sphere: only triangles can be divided, found frequency {frequency} for {faces}: set it to 1"
-        )
+        raise MeshError(f"sphere: only triangles can be divided, found frequency {frequency} for {faces}: set it to 1")
     return solids[faces]()
 
 

@@ -25,9 +25,7 @@ def torus(*, around: int, across: int, tube: float) -> PolygonMesh:
         If a count is below 3, or the tube is not above 0, or so thick that the cage has no hole.
     """
     if min(around, across) < 3:
-        raise MeshError(
-            f"torus: around and across must be 3 or more, found {around} and {across}: ask for more quads"
-        )
+        raise MeshError(f"torus: around and across must be 3 or more, found {around} and {across}: ask for more quads")
     turn, roll = (np.arange(count) * (2 * np.pi / count) for count in (around, across))
     thickest = -limit_radius(across) / np.cos(roll).min()
     if not 0 < tube < thickest:

@@ -47,9 +47,7 @@ def _checked_place(destination: Path) -> Path:
     except OSError as reason:
         raise output_error(destination, reason) from reason
     except RuntimeError as reason:  # a ring of links, before Python 3.13
-        raise OutputError(
-            f"cannot write {destination}: its links lead in a ring; choose another place"
-        ) from reason
+        raise OutputError(f"cannot write {destination}: its links lead in a ring; choose another place") from reason
     if not free:
         what = "a file" if place.name else "a whole disk"
         raise OutputError(f"cannot write the folder {destination}: it is {what}; choose another name")

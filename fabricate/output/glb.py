@@ -36,9 +36,7 @@ def write_glb(path: Path, parts: Sequence[Part]) -> None:
     """
     empty = [part.name for part in parts if len(part.triangles) == 0]
     if empty or not parts:
-        raise ValueError(
-            f"expected parts with triangles, found {len(parts)} parts, without triangles: {empty}"
-        )
+        raise ValueError(f"expected parts with triangles, found {len(parts)} parts, without triangles: {empty}")
     arrays = [array for part in parts for array in _arrays(part)]
     text = json.dumps(_document(parts, [len(array) for array in arrays]), separators=(",", ":")).encode()
     chunks = _chunk(b"JSON", text, b" ") + _chunk(b"BIN\0", b"".join(arrays), b"\0")
@@ -70,9 +68,7 @@ def _document(parts: Sequence[Part], sizes: Sequence[int]) -> dict[str, Any]:
         "nodes": [{"name": parts[k].name, "mesh": k, "matrix": TO_METRES_Y_UP} for k in numbers],
         "meshes": [{"name": parts[k].name, "primitives": [_primitive(k)]} for k in numbers],
         "materials": [_material(parts[k], colours[k]) for k in numbers],
-        "accessors": [
-            accessor for part, k in zip(parts, numbers, strict=True) for accessor in _accessors(part, k)
-        ],
+        "accessors": [accessor for part, k in zip(parts, numbers, strict=True) for accessor in _accessors(part, k)],
         "bufferViews": [
             {
                 "buffer": 0,

@@ -58,9 +58,7 @@ def write_3mf(path: Path, parts: Sequence[Part], *, name: str) -> None:
     """
     empty = [part.name for part in parts if len(part.triangles) == 0]
     if empty or not parts:
-        raise ValueError(
-            f"expected parts with triangles, found {len(parts)} parts, without triangles: {empty}"
-        )
+        raise ValueError(f"expected parts with triangles, found {len(parts)} parts, without triangles: {empty}")
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         for file, text in {

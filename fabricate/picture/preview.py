@@ -33,9 +33,7 @@ def preview_image(parts: Sequence[Part], *, width: int = 1200, height: int = 600
     """
     empty = [part.name for part in parts if len(part.triangles) == 0]
     if empty or not parts:
-        raise ValueError(
-            f"expected parts with triangles, found {len(parts)} parts, without triangles: {empty}"
-        )
+        raise ValueError(f"expected parts with triangles, found {len(parts)} parts, without triangles: {empty}")
     points = np.concatenate([part.points for part in parts])
     camera = camera_towards(points)
     plan = layout(len(parts), width=width, height=height, subject=camera.extent(points), margin=MARGIN)

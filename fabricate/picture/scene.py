@@ -67,9 +67,7 @@ def corner_normals(scene: Scene, facets: Floats32, *, crease: float) -> Floats32
     """
     corners = scene.triangles.ravel()
     angles = _corner_angles(scene)
-    sums = [
-        np.bincount(corners, (angles * facets[:, axis, None]).ravel(), len(scene.points)) for axis in range(3)
-    ]
+    sums = [np.bincount(corners, (angles * facets[:, axis, None]).ravel(), len(scene.points)) for axis in range(3)]
     smooth = unit(np.stack(sums, axis=1))[scene.triangles]
     near = np.einsum("mcx,mx->mc", smooth, facets) >= np.cos(np.radians(crease))
     return np.where(near[:, :, None], smooth, facets[:, None, :])

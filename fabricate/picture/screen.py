@@ -67,9 +67,7 @@ def dither(window: Cell) -> Indices:
     Each 4 x 4 pixels have sixteen successive numbers, near pixels distant ones.
     """
     tile = 16 * np.kron(DITHER, np.ones((4, 4), dtype=np.int64)) + np.tile(DITHER, (4, 4))
-    return np.tile(tile, (window.height // 16 + 1, window.width // 16 + 1))[
-        : window.height, : window.width
-    ].ravel()
+    return np.tile(tile, (window.height // 16 + 1, window.width // 16 + 1))[: window.height, : window.width].ravel()
 
 
 def blurred(screen: Screen, values: Floats32) -> Floats32:

@@ -97,14 +97,10 @@ def staged(scene: Scene) -> Stage:
 def seen(stage: Stage, camera: Camera, pixels: Floats) -> Surfels:
     """Return what is seen through (n, 2) pixel coordinates."""
     pieces = in_blocks(lambda block: _seen(stage, camera, pixels[block]), len(pixels))
-    return Surfels(
-        *(np.concatenate([getattr(piece, field.name) for piece in pieces]) for field in fields(Surfels))
-    )
+    return Surfels(*(np.concatenate([getattr(piece, field.name) for piece in pieces]) for field in fields(Surfels)))
 
 
-def lit(
-    stage: Stage, camera: Camera, surfels: Surfels, *, pattern: Indices, rays: tuple[int, int]
-) -> Floats32:
+def lit(stage: Stage, camera: Camera, surfels: Surfels, *, pattern: Indices, rays: tuple[int, int]) -> Floats32:
     """(n, 2) float: light from the sky and from the key light on surfels that are not NOTHING.
 
     The (n,) `pattern` says which directions sample the light, `rays` how many to the sky and the key light.

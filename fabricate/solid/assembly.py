@@ -10,6 +10,7 @@ Layers lie one under the other, each with a copy for either part; between the fa
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, TypeAlias
 
@@ -24,7 +25,7 @@ from fabricate.surface.normals import unit
 
 Core: TypeAlias = Literal["hollow", "yellow", "blue"]
 
-CORRECTIONS, MOST_ADDED = 4, 1.25
+CORRECTIONS, MOST_ADDED = 3, 1.25
 """How often walls that are too near are moved apart, and by which factor at most each time."""
 
 NOTHING_MISSING = 1.01
@@ -96,9 +97,9 @@ def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core
         yellow_at = blue_at = whole_at = _Blocks(0, n, n)
         blocks = [surface.points, inner]
     else:
-        outer_layer, inner_layer, floor = _layers(surface, inner, clearance)
-        blocks = [outer_layer.yellow, inner_layer.yellow, outer_layer.blue, inner_layer.blue, surface.points, inner]
-        blocks += [floor.yellow, floor.blue] if core != "hollow" else []
+        outer, *under = _layers(surface, inner, clearance=clearance, core=core)
+        blocks = [outer.yellow, under[0].yellow, outer.blue, under[0].blue, surface.points, inner]
+        blocks += [copy for floor in under[1:] for copy in (floor.yellow, floor.blue)]
         yellow_at, blue_at, whole_at = _Blocks(0, n, 6 * n), _Blocks(2 * n, 3 * n, 7 * n), _Blocks(4 * n, 5 * n, 5 * n)
     yellow_outside, yellow_facing = _faces(surface, yellow_at, surface.yellow, core, own="yellow")
     blue_outside, blue_facing = _faces(surface, blue_at, ~surface.yellow, core, own="blue")
@@ -114,27 +115,31 @@ def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core
     )
 
 
-def _layers(surface: CutSurface, inner: Floats, clearance: float) -> tuple[Layer, Layer, Layer]:
-    """Return the outer layer, the inner one and the floor.
+def _layers(surface: CutSurface, inner: Floats, *, clearance: float, core: Core) -> list[Layer]:
+    """Return the outer layer, the inner one and, for a core, the floor.
 
     Where walls lean or twist they are nearer to each other than their edges: there the edges are moved
     further apart, by as much as is missing, a few times.
     """
     down = unit(inner - surface.points)
     wanted = np.full(len(surface.curve), clearance)
-    depths = (surface.points, inner, inner + clearance * down)
+    short = len(wanted) + 1
     for _ in range(CORRECTIONS):
-        outer_layer, inner_layer = (layer(surface, p, down, clearance=wanted) for p in depths[:2])
+        outer_layer, inner_layer = (layer(surface, p, down, clearance=wanted) for p in (surface.points, inner))
         missing = clearance / np.maximum(wall_gaps(outer_layer, inner_layer, surface.curve), 1e-9)
-        if missing.max() <= NOTHING_MISSING:
+        before, short = short, int((missing > NOTHING_MISSING).sum())
+        if not 0 < short < before:
             break
         wanted = wanted * np.clip(_widened(missing), 1.0, MOST_ADDED)
-    return outer_layer, inner_layer, layer(surface, depths[2], down, clearance=wanted)
+    if core == "hollow":
+        return [outer_layer, inner_layer]
+    return [outer_layer, inner_layer, layer(surface, inner + clearance * down, down, clearance=wanted)]
 
 
 def _widened(values: Floats) -> Floats:
     """Return for each curve point the largest value among it and its neighbours."""
-    return np.maximum.reduce([values, np.roll(values, 1), np.roll(values, -1)])
+    widened: Floats = np.maximum.reduce([values, np.roll(values, 1), np.roll(values, -1)])
+    return widened
 
 
 def _faces(
@@ -143,9 +148,7 @@ def _faces(
     """Return a part's triangles towards the outside and the inside, and those that face the other part."""
     mine, other = surface.triangles[region], surface.triangles[~region]
     rings = [at.outer, at.inner] if core != own or at.inner == at.floor else list(at)
-    walls = np.concatenate(
-        [wall(surface.curve, lower, upper) for upper, lower in zip(rings, rings[1:], strict=False)]
-    )
+    walls = np.concatenate([wall(surface.curve, lower, upper) for upper, lower in itertools.pairwise(rings)])
     walls = walls if own == "yellow" else flipped(walls)
     under = flipped(mine) + at.inner
     if core == own:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import igl
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
@@ -32,8 +31,11 @@ LEAST_UPRIGHT = 0.5
 WANTED = 1.0
 """Share of the clearance below which two copies are pushed further apart."""
 
-ROUNDS, PUSH = 40, 1.15
+ROUNDS, PUSH = 12, 1.2
 """Rounds of measuring and pushing, and by how much a push lengthens the way."""
+
+REACH = 6
+"""How many points up and down the curve copies are compared."""
 
 SMOOTHING = 4
 """Passes over values along the curve, so that they change gently."""
@@ -124,21 +126,34 @@ def _slants(sides: RaySides, normals: Floats) -> tuple[Floats, Floats]:
 
 
 def too_near(sides: RaySides, shares: Shares, least: Floats, *, suspects: Indices) -> Mask:
-    """Return at which of the suspected curve points, or midway to the next, the copies are nearer than `least`."""
+    """Return at which of the suspected curve points, or midway to the next, the copies are nearer than `least`.
+
+    Each copy is compared with the other one's pieces a few points up and down the curve; what else may come
+    near is for the tests of the parts to find.
+    """
     copies = [along(side, share[:, None])[:, 0] for side, share in zip(sides, shares, strict=True)]
     count = len(copies[0])
-    pieces = np.stack([np.arange(count), (np.arange(count) + 1) % count], axis=1)
+    window = (suspects[:, None] + np.arange(-REACH, REACH + 2)) % count
     near: Mask = np.zeros(count, dtype=bool)
     for own, other in (copies, copies[::-1]):
-        tree = igl.AABB()
-        tree.init(other, pieces)
+        pieces = other[window]
         middle = 0.5 * (own[suspects] + own[(suspects + 1) % count])
-        squared = tree.squared_distance(other, pieces, np.concatenate([own[suspects], middle]))[0]
-        at_point, at_middle = np.asarray(squared).reshape(2, -1) < least[suspects] ** 2
+        at_point, at_middle = (_nearest(query, pieces) < least[suspects] for query in (own[suspects], middle))
         near[suspects[at_point]] = True
         near[suspects[at_middle]] = True
         near[(suspects[at_middle] + 1) % count] = True
     return near
+
+
+def _nearest(queries: Floats, chains: Floats) -> Floats:
+    """Return the distance of each query, (k, 3), to its own chain of straight pieces, (k, p, 3)."""
+    along_piece = np.diff(chains, axis=1)
+    to_query = queries[:, None] - chains[:, :-1]
+    length = np.maximum(np.einsum("ijk,ijk->ij", along_piece, along_piece), np.finfo(float).tiny)
+    part = np.clip(np.einsum("ijk,ijk->ij", to_query, along_piece) / length, 0.0, 1.0)
+    away = to_query - part[:, :, None] * along_piece
+    nearest: Floats = np.sqrt(np.einsum("ijk,ijk->ij", away, away).min(axis=1))
+    return nearest
 
 
 def _smoothed(values: Floats) -> Floats:

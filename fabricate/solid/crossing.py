@@ -16,9 +16,7 @@ def crossing_triangles(points: Floats, triangles: Indices) -> Indices:
     """
     if not len(triangles):
         return np.zeros((0, 2), dtype=np.int64)
-    result = remesh_self_intersections(
-        np.ascontiguousarray(points), np.ascontiguousarray(triangles), detect_only=True
-    )
+    result = remesh_self_intersections(np.ascontiguousarray(points), np.ascontiguousarray(triangles), detect_only=True)
     pairs: Indices = np.asarray(result[2], dtype=np.int64).reshape(-1, 2)
     return pairs
 

@@ -12,6 +12,9 @@ from fabricate.solid.crossing import crossing_triangles, triangles_near
 GAP_SHARE = 0.965
 """A gap below this share of the clearance is a fault here; the promise to the user is 0.95."""
 
+ALONG_EDGE = np.array([[0.5, 0.5]])
+"""Where edges are measured, as weights of their ends."""
+
 
 def crossing_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
     """Return the surface points, (n,) bool, under triangles that cross; only near `moved` points, (n,) bool.
@@ -31,14 +34,28 @@ def crossing_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mas
 
 
 def near_points(assembly: Assembly, *, clearance: float) -> Mask:
-    """Return the surface points, (n,) bool, under which the parts are nearer than the clearance allows."""
+    """Return the surface points, (n,) bool, under which the parts are nearer than the clearance allows.
+
+    Each part is measured at its points, and along its edges where these could come too near: a point of an edge
+    is no nearer than half of what its ends' distances add up to beyond its length.
+    """
+    least = GAP_SHARE * clearance
     near = []
     for own, other in ((assembly.yellow, assembly.blue), (assembly.blue, assembly.yellow)):
         numbers = np.unique(own)
-        numbers = numbers[~_outer(assembly, clearance)[numbers]]
-        distance = distances(assembly.points[numbers], assembly.points, other)
-        near.append(numbers[distance < GAP_SHARE * clearance])
-    return _surface_points(assembly, np.concatenate(near))
+        distance = np.full(len(assembly.points), np.inf)
+        distance[numbers] = distances(assembly.points[numbers], assembly.points, other)
+        near.append(numbers[distance[numbers] < least])
+        edges = np.concatenate([own[:, [0, 1]], own[:, [1, 2]], own[:, [2, 0]]])
+        edges = edges[edges[:, 0] < edges[:, 1]]
+        ends = assembly.points[edges]
+        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        close = distance[edges].sum(axis=1) - length < 2.0 * least
+        samples = np.einsum("sk,ekj->esj", ALONG_EDGE, ends[close])
+        found = distances(samples.reshape(-1, 3), assembly.points, other).reshape(samples.shape[:2])
+        near.append(edges[close][(found < least).any(axis=1)].ravel())
+    numbers = np.concatenate(near)
+    return _surface_points(assembly, numbers[~_outer(assembly, clearance)[numbers]])
 
 
 def distances(queries: Floats, points: Floats, triangles: Indices) -> Floats:
@@ -58,4 +75,5 @@ def _surface_points(assembly: Assembly, numbers: Indices) -> Mask:
 def _outer(assembly: Assembly, clearance: float) -> Mask:
     """Return which numbers lie on the outer layer: block 0, and with a clearance blue's copy in block 2."""
     block = np.arange(len(assembly.points)) // assembly.surface_points
-    return (block == 0) | ((block == 2) & (clearance > 0.0))
+    outer: Mask = (block == 0) | ((block == 2) & (clearance > 0.0))
+    return outer

@@ -12,8 +12,8 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, Mask
-from fabricate.surface.cut import CutSurface
 from fabricate.surface.adjacency import grown
+from fabricate.surface.cut import CutSurface
 from fabricate.surface.ray_casting import first_hits
 
 DEPTH_SLOPE = 0.7

@@ -32,9 +32,7 @@ ROUNDS, STEP = 40, 0.25
 """Rounds of measuring and sliding, and the share of the way to the mean that points move in each."""
 
 
-def fitted_cut(
-    duotone: Duotone, *, arc: float = 0.5, tolerance: float = 0.05, clearance: float = 0.0
-) -> CutSurface:
+def fitted_cut(duotone: Duotone, *, arc: float = 0.5, tolerance: float = 0.05, clearance: float = 0.0) -> CutSurface:
     """Cut the limit surface of a duotone as finely as `tolerance` asks for, with room for `clearance`; both mm.
 
     `arc` is where the curve crosses tile sides, from their yellow ends, between 0.293 and 0.707.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+
 from fabricate.arrays import Floats, Indices, Mask, frozen
 from fabricate.duotone.curve import traced_arcs
 from fabricate.duotone.duotone import Duotone
@@ -84,9 +85,7 @@ def cut(duotone: Duotone, limit: LimitSurface, *, arc: float, resolution: int) -
     PatternError
         If the tiles form more than one curve, or the arc position or the resolution is out of range.
     """
-    templates = [
-        tile_template(arc=arc, resolution=resolution, yellow_joined=kind) for kind in (False, True)
-    ]
+    templates = [tile_template(arc=arc, resolution=resolution, yellow_joined=kind) for kind in (False, True)]
     tiles = [np.flatnonzero(duotone.joined == kind) for kind in (False, True)]
     table = _point_numbers(duotone.quads, templates[0])
     size = int(table.max()) + 1

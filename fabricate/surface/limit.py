@@ -15,6 +15,7 @@ import numpy as np
 from fabricate.arrays import Floats, Indices
 from fabricate.duotone.catmull_clark import catmull_clark
 from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.surface.normals import unit
 from fabricate.surface.patch import PatchBasis, patch_basis
 
 
@@ -44,13 +45,12 @@ class LimitOperator:
     size: int
 
     def positions(self, control: Floats) -> Floats:
-        """Return limit values of the refined control values (see `refined_control`), (size, d) float."""
+        """Return limit values of values at the refined mesh's points, (m, d), as (size, d) float."""
         return self._applied(control, 0)
 
     def normals(self, control: Floats) -> Floats:
         """Return unit outward normals of the limit surface, (size, 3) float."""
-        normal = np.cross(self._applied(control, 1), self._applied(control, 2))
-        return normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
+        return unit(np.cross(self._applied(control, 1), self._applied(control, 2)))
 
     def _applied(self, control: Floats, member: int) -> Floats:
         values = np.zeros((self.size, control.shape[1]))
@@ -143,10 +143,10 @@ def _control_points(mesh: QuadMesh, quads: Indices, valence: int) -> Indices:
     tail, twin = mesh.tiles.ravel(), mesh.twins
 
     def following(h: Indices) -> Indices:
-        return h + 1 - 4 * (h % 4 == 3)
+        return 4 * (h // 4) + (h + 1) % 4
 
     def preceding(h: Indices) -> Indices:
-        return h - 1 + 4 * (h % 4 == 0)
+        return 4 * (h // 4) + (h - 1) % 4
 
     columns = [tail[4 * quads]]
     spoke = 4 * quads

@@ -13,9 +13,7 @@ def vertex_normals(points: Floats, triangles: Indices) -> Floats:
     facet = np.cross(b - a, c - a)
     normals = np.zeros_like(points)
     for axis in range(3):
-        normals[:, axis] = sum(
-            np.bincount(triangles[:, k], facet[:, axis], minlength=len(points)) for k in range(3)
-        )
+        normals[:, axis] = sum(np.bincount(triangles[:, k], facet[:, axis], minlength=len(points)) for k in range(3))
     return unit(normals)
 
 

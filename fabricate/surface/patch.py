@@ -33,8 +33,8 @@ FAR_POINTS = ((2, -1), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (-1, 2))
 class PatchBasis(NamedTuple):
     """Weights of the control points for position and both derivatives, each (s, 2 N + 8) float.
 
-    Derivatives are true to direction and orientation, not to length: close to the corner they are scaled
-    by a positive factor per sample, which a normal does not feel.
+    The derivatives span the tangent plane with the right orientation. Away from the extraordinary corner they
+    are true to direction, scaled by a positive factor per sample; at the corner they are two tangents.
     """
 
     position: Floats
@@ -105,12 +105,10 @@ def _bicubic(uv: Floats, numbers: Indices, count: int) -> PatchBasis:
     """Return uniform bicubic B-spline weights spread over `count` control points."""
     bu, bv = _cubic(uv[:, 0]), _cubic(uv[:, 1])
     du, dv = _cubic_slope(uv[:, 0]), _cubic_slope(uv[:, 1])
-    weights = []
-    for along_u, along_v in ((bu, bv), (du, bv), (bu, dv)):
-        spread = np.zeros((len(uv), count))
-        spread[:, numbers] = (along_v[:, :, None] * along_u[:, None, :]).reshape(len(uv), 16)
-        weights.append(spread)
-    return PatchBasis(*weights)
+    # a sum, not an assignment: round a corner of valence 2 a point stands in two places of the grid
+    spread = np.eye(count)[numbers]
+    products = ((bu, bv), (du, bv), (bu, dv))
+    return PatchBasis(*((v[:, :, None] * u[:, None, :]).reshape(-1, 16) @ spread for u, v in products))
 
 
 def _cubic(t: Floats) -> Floats:
@@ -151,12 +149,13 @@ def _subdivision(valence: int) -> tuple[Floats, Floats]:
     next_edge, last_edge = 1 + 2 * ((around + 1) % n), 1 + 2 * ((around - 1) % n)
     last_face = 2 + 2 * ((around - 1) % n)
     fine[0, 0] = 1.0 - 7.0 / (4.0 * n)
-    np.add.at(fine, (0, edge), 1.5 / n**2)
-    np.add.at(fine, (0, face), 0.25 / n**2)
-    for columns, weight in ((0, 6), (edge, 6), (next_edge, 1), (last_edge, 1), (face, 1), (last_face, 1)):
-        np.add.at(fine, (edge, columns), weight / 16.0)
-    for columns in (0, edge, face, next_edge):
-        np.add.at(fine, (face, columns), 0.25)
+    corner = np.zeros(n, dtype=np.int64)
+    fine[0, edge] += 1.5 / n**2
+    fine[0, face] += 0.25 / n**2
+    for columns, sixteenths in ((corner, 6), (edge, 6), (next_edge, 1), (last_edge, 1), (face, 1), (last_face, 1)):
+        fine[edge, columns] += sixteenths / 16.0
+    for columns in (corner, edge, face, next_edge):
+        fine[face, columns] += 0.25
     for row, point in enumerate(_FINE_FAR, start=2 * n + 1):
         for column, weight in _regular_rule(n, point):
             fine[row, column] += weight

@@ -30,15 +30,15 @@ def sized(mesh: PolygonMesh, *, size: float) -> PolygonMesh:
 def tile_sides(quads: QuadMesh) -> Floats:
     """Return the straight length of each tile side on the limit surface, (4 t,) float, mm."""
     corners = limit_vertices(quads)[quads.tiles]
-    return np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).ravel()
+    sides: Floats = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).ravel()
+    return sides
 
 
 def tiled(mesh: PolygonMesh, *, tile_size: float) -> QuadMesh:
-    """Return the mesh after as many Catmull-Clark steps, at least 1, as bring the median tile side nearest to
-    `tile_size` mm.
+    """Return the mesh subdivided until its median tile side is as near to `tile_size` mm as it gets.
 
-    Each step halves the sides, so the result is within a factor of the square root of 2 of what was asked, unless
-    the mesh's own faces are smaller than that already.
+    There is at least one Catmull-Clark step. Each halves the sides, so the result is within a factor of the
+    square root of 2 of what was asked, unless the mesh's own faces are smaller than that already.
 
     Raises
     ------
@@ -53,7 +53,7 @@ def tiled(mesh: PolygonMesh, *, tile_size: float) -> QuadMesh:
         )
     quads = subdivided(mesh, levels=1)
     steps = int(np.rint(np.log2(float(np.median(tile_sides(quads))) / tile_size)))
-    if len(quads.tiles) * 4.0**steps > MAX_TILES:
+    if steps > 0.5 * np.log2(MAX_TILES / len(quads.tiles)):
         raise PatternError(
             f"tiles of {tile_size:g} mm would be more than {MAX_TILES}; ask for a larger pattern.tile_size"
         )

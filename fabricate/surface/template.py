@@ -103,17 +103,30 @@ def side_fractions(*, arc: float, resolution: int) -> Floats:
 
 
 def _joined_template(arc: float, n: int) -> TileTemplate:
-    """Merge the two fans of a yellow-joined tile and number the samples corners, sides, interior."""
-    m = radial(n)
-    fan, rim = _fan(arc, n), _rim(arc, n)
-    uv = np.concatenate([rim, fan, 1.0 - fan])
-    # distinct samples are at least 0.05 / n apart, so rounding finds the shared ones without doubt
-    first, merged = np.unique(np.round(uv, 9), axis=0, return_index=True, return_inverse=True)[1:]
-    number = np.argsort(np.argsort(first))[merged.ravel()][len(rim) :]
-    rays = number.reshape(2, n + 1, 2 * m + 1)
-    cells, yellow = _fan_cells(n, m)
+    """Join the two fans of a yellow-joined tile at the sides and on the diagonal."""
+    fan, rays = _fan(arc, n), _ray_numbers(n)
+    inner = fan[1:-1, 1:-1].reshape(-1, 2)
+    cells, yellow = _fan_cells(n, radial(n))
     triangles = rays.reshape(2, -1)[:, cells].reshape(-1, 3)
-    return TileTemplate(uv[np.sort(first)], triangles, np.tile(yellow, 2), rays)
+    uv = np.concatenate([_rim(arc, n), inner, 1.0 - inner, fan[1:-1, -1]])
+    return TileTemplate(uv, triangles, np.tile(yellow, 2), rays)
+
+
+def _ray_numbers(n: int) -> Indices:
+    """Return the sample numbers along the rays of both fans, (2, n + 1, 2 m + 1) int, from the blue corner.
+
+    Interior samples come fan by fan and ray by ray, those on the diagonal last. What fans and sides share
+    has one number by construction; positions, which differ by rounding, are not compared.
+    """
+    per_side = 2 * radial(n) - 1
+    side = 4 + per_side * np.arange(4)[:, None] + np.arange(per_side)[::-1]
+    inner = 4 + 4 * per_side + np.arange(2 * (n - 1) * per_side).reshape(2, n - 1, per_side)
+    diagonal = np.concatenate([[0], inner.max() + 1 + np.arange(n - 1), [2]])
+    rays = np.zeros((2, n + 1, per_side + 2), dtype=np.int64)
+    rays[:, :, 0] = [[1], [3]]
+    rays[:, 0, 1:-1], rays[:, 1:-1, 1:-1], rays[:, -1, 1:-1] = side[[0, 2]], inner, side[[1, 3]]
+    rays[:, :, -1] = diagonal, diagonal[::-1]
+    return rays
 
 
 def _turned(template: TileTemplate) -> TileTemplate:
@@ -142,7 +155,7 @@ def _rim(arc: float, n: int) -> Floats:
 
 
 def _fan(arc: float, n: int) -> Floats:
-    """Return the samples on the rays from b1, ray after ray, each from the corner to the diagonal."""
+    """Return the samples on the rays from b1, (n + 1, 2 m + 1, 2), each from the corner to the diagonal."""
     m = radial(n)
     angle = 0.5 * np.pi * np.arange(n + 1)[:, None] / n
     reach = 1.0 / (np.cos(angle) + np.sin(angle))
@@ -150,7 +163,7 @@ def _fan(arc: float, n: int) -> Floats:
     radius = np.concatenate(
         [np.broadcast_to((1.0 - arc) * inward, (n + 1, m)), 1.0 - arc + (reach - (1.0 - arc)) * outward], axis=1
     )
-    return np.stack([1.0 - radius * np.cos(angle), radius * np.sin(angle)], axis=2).reshape(-1, 2)
+    return np.stack([1.0 - radius * np.cos(angle), radius * np.sin(angle)], axis=2)
 
 
 def _fan_cells(n: int, m: int) -> tuple[Indices, Mask]:

@@ -106,9 +106,7 @@ def test_failed_checks_are_told_and_passed_ones_are_not(
     assert outcome == Outcome("a", 1, "overlap; gap too small")
 
 
-def test_a_skipped_check_is_not_a_passed_one(
-    config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_skipped_check_is_not_a_passed_one(config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
     skipped = FakeCheck(False, "no slicer", skipped=True)
     passed = outcome_of(config("a"), monkeypatch, FakeReport(True, (skipped,)))
     assert passed == Outcome("a", 0, "ok, but skipped: no slicer")
@@ -126,9 +124,7 @@ def test_a_bad_config_does_not_stop_the_others(
     assert sorted(outcome.status for outcome in outcomes) == [0, 2]
 
 
-def test_a_mesh_that_cannot_be_used_is_an_outcome(
-    config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_mesh_that_cannot_be_used_is_an_outcome(config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
     def run(*_: object, **__: object) -> FakeReport:
         raise MeshError("open boundary of 4 edges")
 

@@ -39,9 +39,7 @@ def two_spheres(distance: float) -> Part:
 
 
 @given(lengths, lengths, lengths, shifts)
-def test_box_has_the_volume_and_area_of_a_box(
-    a: float, b: float, c: float, shift: tuple[float, float, float]
-) -> None:
+def test_box_has_the_volume_and_area_of_a_box(a: float, b: float, c: float, shift: tuple[float, float, float]) -> None:
     mesh = trimesh.creation.box((a, b, c))
     mesh.apply_translation(shift)
     part = part_of(mesh)

@@ -131,9 +131,7 @@ def test_a_peg_with_heads_is_captive() -> None:
 
 def test_a_box_in_a_box_is_captive_with_the_gap_on_either_side() -> None:
     inner = part_of(Manifold.cube((10, 12, 14), True))
-    outer = part_of(
-        Manifold.cube((20, 20, 20), True) - Manifold.cube((10 + 2 * GAP, 12 + 2 * GAP, 14 + 2 * GAP), True)
-    )
+    outer = part_of(Manifold.cube((20, 20, 20), True) - Manifold.cube((10 + 2 * GAP, 12 + 2 * GAP, 14 + 2 * GAP), True))
     found = judged(inner, outer)
     assert found.verdict == "captive"
     assert found.play is not None

@@ -45,9 +45,7 @@ def skipped(found: Topology) -> set[str]:
 
 def voxels(filled: frozenset[tuple[int, int, int]]) -> Part:
     """Return the boundary of unit cubes, points shared wherever they coincide."""
-    quads = [
-        _side(cell, axis, side) for cell in filled for axis, side in SIDES if _open(filled, cell, axis, side)
-    ]
+    quads = [_side(cell, axis, side) for cell in filled for axis, side in SIDES if _open(filled, cell, axis, side)]
     corners = np.array([corner for quad in quads for k in (0, 1, 2, 0, 2, 3) for corner in [quad[k]]])
     points, numbers = np.unique(corners, axis=0, return_inverse=True)
     return Part("red", points, numbers.reshape(-1, 3))
@@ -145,9 +143,7 @@ def test_a_hole_is_found_at_its_edges() -> None:
 
 def test_a_triangle_too_many_is_found_at_its_edges() -> None:
     whole = sphere()
-    found = topology(
-        Part("red", whole.points, np.array([*whole.triangles, whole.triangles[5]])), expected_genus=0
-    )
+    found = topology(Part("red", whole.points, np.array([*whole.triangles, whole.triangles[5]])), expected_genus=0)
     assert "closed" in failed(found)
     assert len(check_of(found, "closed").where) == 3
     assert "3 have more than two" in check_of(found, "closed").message
@@ -216,21 +212,14 @@ def test_an_empty_part_is_not_closed() -> None:
 
 def test_points_without_triangles_change_nothing() -> None:
     whole = sphere()
-    found = topology(
-        Part("red", np.array([*whole.points, [99.0, 0.0, 0.0]]), whole.triangles), expected_genus=0
-    )
+    found = topology(Part("red", np.array([*whole.points, [99.0, 0.0, 0.0]]), whole.triangles), expected_genus=0)
     assert all(check.ok for check in found.checks)
 
 
 def test_at_most_twenty_places_are_named() -> None:
     whole = sphere()
     assert (
-        len(
-            check_of(
-                topology(Part("red", whole.points, whole.triangles[::2]), expected_genus=0), "closed"
-            ).where
-        )
-        == 20
+        len(check_of(topology(Part("red", whole.points, whole.triangles[::2]), expected_genus=0), "closed").where) == 20
     )
 
 

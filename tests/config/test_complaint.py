@@ -65,9 +65,7 @@ MISTAKES = [
     Mistake(TORUS + '[pattern]\nlevels = 2\ntile_size = "7 mm"', ("levels", "tile_size", "not both")),
     Mistake(TORUS + "[pattern]\nlevels = 13", ("pattern.levels", "at most 12", "13")),
     Mistake(TORUS + '[pattern]\ntile_size = "0 mm"', ("pattern.tile_size", "more than 0 mm")),
-    Mistake(
-        TORUS + '[pattern]\ntile_size = "101 mm"', ("pattern.tile_size", "not larger than the body", "100 mm")
-    ),
+    Mistake(TORUS + '[pattern]\ntile_size = "101 mm"', ("pattern.tile_size", "not larger than the body", "100 mm")),
     Mistake(TORUS + '[pattern]\ntree = "Random"', ("pattern.tree", 'did you mean "random"?')),
     Mistake(TORUS + '[pattern]\ntree = ["random"]', ("pattern.tree", '["random"]')),
     Mistake(TORUS + "[pattern]\narc = 0.293", ("pattern.arc", "more than 0.293", "less than 0.707")),

@@ -45,9 +45,7 @@ def test_a_config_cannot_be_edited() -> None:
         (SolidConfig(), PatternConfig(tile_size=50.1), "pattern.tile_size"),
     ],
 )
-def test_values_that_do_not_fit_together_are_refused(
-    solid: SolidConfig, pattern: PatternConfig, key: str
-) -> None:
+def test_values_that_do_not_fit_together_are_refused(solid: SolidConfig, pattern: PatternConfig, key: str) -> None:
     with pytest.raises(ValidationError) as caught:
         Config(source=CubeConfig(size=50.0), solid=solid, pattern=pattern)
     assert caught.value.errors()[0]["ctx"]["key"] == key

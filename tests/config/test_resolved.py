@@ -33,9 +33,7 @@ SOURCE = st.one_of(
     st.builds(TorusConfig, size=SIZES, around=st.integers(3, 512), tube=st.floats(0.01, 0.99)),
     st.builds(FrameConfig, shape=st.sampled_from(["double-torus", "triple-torus", "genus-6"]), size=SIZES),
     st.builds(KnotConfig, size=SIZES, across=st.integers(3, 64)),
-    st.builds(
-        FileConfig, path=st.text(st.characters(exclude_categories=["Cs", "Cc"]), min_size=1), size=SIZES
-    ),
+    st.builds(FileConfig, path=st.text(st.characters(exclude_categories=["Cs", "Cc"]), min_size=1), size=SIZES),
 )
 PATTERN = st.builds(
     PatternConfig,

@@ -44,9 +44,7 @@ def test_trees_are_proved_duotones_and_yellow_is_a_disc(quads: QuadMesh, seed: i
     assert found.holds
     assert found.curves == 1
     assert found.yellow == RegionFacts(components=1, euler_characteristic=1, handles=0)
-    assert found.blue == RegionFacts(
-        components=1, euler_characteristic=1 - 2 * quads.genus, handles=quads.genus
-    )
+    assert found.blue == RegionFacts(components=1, euler_characteristic=1 - 2 * quads.genus, handles=quads.genus)
 
 
 @pytest.mark.parametrize("name", HANDLES)

@@ -39,9 +39,7 @@ def edge_graph(mesh: PolygonMesh) -> nx.Graph:
 def assert_sound(quads: QuadMesh, mesh: PolygonMesh) -> None:
     """Assert that the quads are the mesh's own faces, coloured in turn and rightly connected."""
     assert (quads.points == mesh.points).all()
-    assert {frozenset(tile) for tile in quads.tiles.tolist()} == {
-        frozenset(face) for face in face_lists(mesh)
-    }
+    assert {frozenset(tile) for tile in quads.tiles.tolist()} == {frozenset(face) for face in face_lists(mesh)}
     assert sorted(directed_edges(quads.tiles.tolist())) == sorted(directed_edges(face_lists(mesh)))
     assert (quads.yellow[quads.tiles] == [True, False, True, False]).all()
     found = half_edges(PolygonMesh.from_faces(quads.points, quads.tiles.tolist()))
@@ -101,9 +99,7 @@ def test_odd_torus_is_an_error_that_names_an_odd_cycle(counts: tuple[int, int], 
     ("mesh", "others", "first", "corners"),
     [(tetrahedron(), 4, 0, 3), (dodecahedron(), 12, 0, 5)],
 )
-def test_other_faces_than_quads_are_an_error(
-    mesh: PolygonMesh, others: int, first: int, corners: int
-) -> None:
+def test_other_faces_than_quads_are_an_error(mesh: PolygonMesh, others: int, first: int, corners: int) -> None:
     message = f"found {others} other faces, the first is face {first} with {corners} corners"
     with pytest.raises(PatternError, match=message):
         two_coloured(mesh)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import get_args
 
 import networkx as nx
 import numpy as np
@@ -14,8 +15,10 @@ from fabricate.duotone.catmull_clark import subdivided
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
 from fabricate.duotone.spanning_tree import (
+    Tree,
     breadth_first_duotone,
     depth_first_duotone,
+    grown_duotone,
     random_duotone,
     seeded_root,
     weighted_duotone,
@@ -43,7 +46,7 @@ def some_weights(quads: QuadMesh, seed: int) -> np.ndarray:
 def parallels(quads: QuadMesh) -> int:
     """Return the number of tiles that share both yellow corners with an earlier one."""
     graph = diagonals(quads, first=0)
-    return graph.number_of_edges() - nx.Graph(graph).number_of_edges()
+    return int(graph.number_of_edges() - nx.Graph(graph).number_of_edges())
 
 
 def assert_spanning_tree(duotone: Duotone) -> None:
@@ -63,9 +66,7 @@ def test_joined_tiles_are_a_tree_that_spans_all_yellow_points(
 
 @makers
 @pytest.mark.parametrize("count", PARALLEL)
-def test_parallel_diagonals_are_there_and_do_no_harm(
-    make: Callable[[QuadMesh, int], Duotone], count: int
-) -> None:
+def test_parallel_diagonals_are_there_and_do_no_harm(make: Callable[[QuadMesh, int], Duotone], count: int) -> None:
     assert parallels(PARALLEL[count]) == (3 if count == 2 else count)
     for seed in range(20):
         assert_spanning_tree(make(PARALLEL[count], seed))
@@ -115,9 +116,7 @@ def test_of_parallel_tiles_the_lightest_counts(count: int) -> None:
         weights = np.random.default_rng(seed).normal(size=len(quads.tiles))
         chosen = weighted_duotone(quads, weights).joined
         for low, high in nx.Graph(diagonals(quads, first=0)).edges:
-            bundle = np.flatnonzero(
-                (np.sort(quads.tiles[:, [0, 2]], axis=1) == sorted((low, high))).all(axis=1)
-            )
+            bundle = np.flatnonzero((np.sort(quads.tiles[:, [0, 2]], axis=1) == sorted((low, high))).all(axis=1))
             assert chosen[bundle].sum() <= 1
             assert not chosen[bundle].any() or chosen[bundle[np.argmin(weights[bundle])]]
 
@@ -154,6 +153,13 @@ def test_depth_first_leaves_no_tile_between_two_branches(quads: QuadMesh, seed: 
         lines[point] = {point}.union(*(lines[above] for above in parent[point]))
     for a, b in diagonals(quads, first=0).edges():
         assert a in lines[b] or b in lines[a]
+
+
+@pytest.mark.parametrize("tree", get_args(Tree))
+@given(quads=MESHES, seed=seeds)
+def test_trees_can_be_called_by_their_names(tree: Tree, quads: QuadMesh, seed: int) -> None:
+    wanted = MAKERS[tree.replace("-", " ")](quads, seed)
+    assert (grown_duotone(quads, tree=tree, seed=seed).joined == wanted.joined).all()
 
 
 def test_depth_first_winds_where_breadth_first_radiates() -> None:

@@ -321,9 +321,7 @@ def test_unusable_coordinate_is_shown_with_its_point(value: float) -> None:
         (np.vstack([CUBE_POINTS, [9, 9, 9]]), CUBE_FACES, "1 point without any face"),
     ],
 )
-def test_numbers_that_make_no_mesh_are_caught(
-    points: np.ndarray, faces: list[tuple[int, ...]], message: str
-) -> None:
+def test_numbers_that_make_no_mesh_are_caught(points: np.ndarray, faces: list[tuple[int, ...]], message: str) -> None:
     with pytest.raises(MeshError, match=message):
         checked_closed(PolygonMesh.from_faces(points, faces))
 

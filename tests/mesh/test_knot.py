@@ -66,9 +66,7 @@ def test_the_thickest_tube_is_below_the_reach_of_the_curve() -> None:
 
 @settings(max_examples=20)
 @given(around=around, across=across, share=share)
-def test_limit_points_have_the_tube_radius_as_distance_from_the_curve(
-    around: int, across: int, share: float
-) -> None:
+def test_limit_points_have_the_tube_radius_as_distance_from_the_curve(around: int, across: int, share: float) -> None:
     tube = share * thickest(across)
     limit = limit_points(trefoil(around=around, across=across, tube=tube), around=around).reshape(-1, 3)
     curve, _ = knot(6000)

@@ -94,9 +94,7 @@ def test_frame_counts(frame: Frame, handles: int, points: int, quads: int) -> No
 
 @pytest.mark.parametrize(("frame", "handles"), [(frame, handles) for frame, handles, _, _ in FRAMES])
 @given(hole=holes, depth=depths)
-def test_frame_is_a_closed_solid_over_the_whole_range(
-    frame: Frame, handles: int, hole: float, depth: float
-) -> None:
+def test_frame_is_a_closed_solid_over_the_whole_range(frame: Frame, handles: int, hole: float, depth: float) -> None:
     mesh = frame(hole=hole, depth=depth)
     assert checked_closed(mesh) is mesh
     assert genus(mesh) == handles

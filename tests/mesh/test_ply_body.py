@@ -58,9 +58,7 @@ def test_every_row_and_property_is_found(byte_order: str, links: list[Link]) -> 
 
 @pytest.mark.parametrize("byte_order", BYTE_ORDERS)
 @given(links=LINKS, missing=st.integers(1, 10**17))
-def test_more_rows_than_there_are_data_for_are_refused(
-    byte_order: str, links: list[Link], missing: int
-) -> None:
+def test_more_rows_than_there_are_data_for_are_refused(byte_order: str, links: list[Link], missing: int) -> None:
     element = PlyElement("link", len(links) + missing, LINK)
     body = body_of(b"".join(link_bytes(link, byte_order) for link in links), byte_order, element)
     with pytest.raises(ReadError, match=f"declares {element.count} rows of element 'link', but only"):

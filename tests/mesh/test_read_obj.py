@@ -85,10 +85,7 @@ def test_any_polygons_in_any_order_come_back(data: st.DataObject) -> None:
         place = data.draw(st.integers(0, len(lines)))
         before = sum(line.startswith("v") for line in lines[:place])
         counted_back = [data.draw(st.booleans()) and corner < before for corner in face]
-        words = [
-            str(corner - before if back else corner + 1)
-            for corner, back in zip(face, counted_back, strict=True)
-        ]
+        words = [str(corner - before if back else corner + 1) for corner, back in zip(face, counted_back, strict=True)]
         lines.insert(place, "f " + " ".join(words))
     mesh = read_obj("\n".join(lines).encode())
     np.testing.assert_array_equal(mesh.points, points)

@@ -55,9 +55,7 @@ def row_bytes(properties: list[str], row: Row, order: str) -> bytes:
         pieces += [(CODES[words[-2]], item) for item in items]
     if not order:
         return (" ".join(repr(value) for _, value in pieces) + " \n").encode()
-    return b"".join(
-        struct.pack(order + code, value if code in "fd" else int(value)) for code, value in pieces
-    )
+    return b"".join(struct.pack(order + code, value if code in "fd" else int(value)) for code, value in pieces)
 
 
 def face_lists(mesh: PolygonMesh) -> list[list[int]]:

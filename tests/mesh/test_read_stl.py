@@ -17,9 +17,7 @@ TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])[
 
 
 def binary(corners: np.ndarray, *, header: bytes = b"made by hand") -> bytes:
-    triangles = np.zeros(
-        len(corners), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]
-    )
+    triangles = np.zeros(len(corners), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
     triangles["corners"] = corners
     return header.ljust(80, b"\0") + len(corners).to_bytes(4, "little") + triangles.tobytes()
 

@@ -123,9 +123,7 @@ def test_extension_helps_where_the_contents_leave_it_open(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("writer", INDEXED)
-def test_points_without_faces_are_dropped_and_the_others_keep_their_order(
-    tmp_path: Path, writer: Writer
-) -> None:
+def test_points_without_faces_are_dropped_and_the_others_keep_their_order(tmp_path: Path, writer: Writer) -> None:
     points = ["9 9 9", POINTS[0], POINTS[1], "nan inf 1e38", POINTS[2], POINTS[3], "8 8 8"]
     mesh = read(tmp_path, writer(points, [[(1, 2, 4, 5)[corner] for corner in face] for face in FACES]))
     assert_tetrahedron(mesh)
@@ -134,9 +132,7 @@ def test_points_without_faces_are_dropped_and_the_others_keep_their_order(
 
 @pytest.mark.parametrize("writer", ALL)
 @pytest.mark.parametrize("value", ["nan", "inf", "-inf", "1.1e30", "-3.4e38"])
-def test_unusable_coordinates_are_refused_with_their_place(
-    tmp_path: Path, writer: Writer, value: str
-) -> None:
+def test_unusable_coordinates_are_refused_with_their_place(tmp_path: Path, writer: Writer, value: str) -> None:
     content = writer([*POINTS[:3], f"0 0 {value}"], FACES)
     assert_content_refused(tmp_path, content, r"points cannot be used: .* found \(0, 0, .* for point 4")
 
@@ -218,9 +214,7 @@ def test_other_kinds_of_files_are_refused(tmp_path: Path, content: bytes, name: 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150)
 @given(st.data())
 @pytest.mark.parametrize("writer", ALL)
-def test_damaged_files_are_read_or_refused_but_never_crash(
-    tmp_path: Path, writer: Writer, data: st.DataObject
-) -> None:
+def test_damaged_files_are_read_or_refused_but_never_crash(tmp_path: Path, writer: Writer, data: st.DataObject) -> None:
     content = bytearray(writer(POINTS, FACES))
     for _ in range(data.draw(st.integers(1, 3))):
         place = data.draw(st.integers(0, len(content)))

@@ -33,9 +33,7 @@ class Solid:
 
 
 SOLIDS = [
-    Solid(
-        lambda: geodesic_sphere(frequency=1), 12, {3: 20}, (10 + 2 * 5**0.5) ** 0.5 / 4, 5 * (3 + 5**0.5) / 12
-    ),
+    Solid(lambda: geodesic_sphere(frequency=1), 12, {3: 20}, (10 + 2 * 5**0.5) ** 0.5 / 4, 5 * (3 + 5**0.5) / 12),
     Solid(dodecahedron, 20, {5: 12}, 3**0.5 * (1 + 5**0.5) / 4, (15 + 7 * 5**0.5) / 4),
     Solid(truncated_icosahedron, 60, {5: 12, 6: 20}, (58 + 18 * 5**0.5) ** 0.5 / 4, (125 + 43 * 5**0.5) / 4),
     Solid(truncated_cuboctahedron, 48, {4: 12, 6: 8, 8: 6}, (13 + 6 * 2**0.5) ** 0.5 / 2, 22 + 14 * 2**0.5),

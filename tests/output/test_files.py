@@ -20,9 +20,7 @@ def test_a_file_is_written_and_replaced_and_nothing_else_is_left(tmp_path: Path)
 
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES, errno.EIO])
-def test_when_writing_fails_the_old_file_stays(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
-) -> None:
+def test_when_writing_fails_the_old_file_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int) -> None:
     path = tmp_path / "part.stl"
     path.write_bytes(b"old")
 
@@ -65,10 +63,7 @@ def test_a_folder_is_not_replaced_by_a_file(tmp_path: Path) -> None:
 
 def test_the_reason_of_the_system_is_part_of_the_message() -> None:
     error = output_error(Path("somewhere"), OSError(errno.ENOSPC, "No space left on device"))
-    assert (
-        str(error)
-        == "cannot write somewhere: no space left on device; free some space or choose another disk"
-    )
+    assert str(error) == "cannot write somewhere: no space left on device; free some space or choose another disk"
 
 
 def test_temporary_names_are_hidden_in_the_same_folder_and_differ() -> None:

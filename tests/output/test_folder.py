@@ -42,9 +42,7 @@ def test_an_existing_folder_is_replaced_with_everything_in_it(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt, OutputError])
-def test_when_the_block_fails_the_old_folder_stays_and_nothing_else(
-    tmp_path: Path, error: type[BaseException]
-) -> None:
+def test_when_the_block_fails_the_old_folder_stays_and_nothing_else(tmp_path: Path, error: type[BaseException]) -> None:
     destination = tmp_path / "first"
     make(destination, a="old")
 
@@ -67,9 +65,7 @@ def test_when_the_block_fails_folders_made_on_the_way_are_gone_too(tmp_path: Pat
     assert list(tmp_path.rglob("*")) == [kept]
 
 
-def test_when_the_last_rename_fails_the_old_folder_is_back(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_when_the_last_rename_fails_the_old_folder_is_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     destination = tmp_path / "first"
     make(destination, a="old")
     rename = Path.rename

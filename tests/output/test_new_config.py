@@ -21,9 +21,7 @@ def test_a_new_config_is_written_and_never_overwritten(tmp_path: Path) -> None:
     assert path.read_text() == "mine"
 
 
-@pytest.mark.parametrize(
-    "name", ["", ".", "..", "a/b", "../a", "-a", ".a", "a b", "a\n", "a\0", "first.toml", "a:b"]
-)
+@pytest.mark.parametrize("name", ["", ".", "..", "a/b", "../a", "-a", ".a", "a b", "a\n", "a\0", "first.toml", "a:b"])
 def test_bad_names_are_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ConfigError, match="expected a name"):
         write_new_config(name, tmp_path)

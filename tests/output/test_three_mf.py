@@ -116,9 +116,7 @@ def test_the_slicer_configuration_gives_all_triangles_of_each_part_their_own_ext
         assert extruder.get("value") == str(number)
 
 
-def test_the_archive_is_sound_without_dates_and_the_second_file_is_the_same(
-    file: Path, tmp_path: Path
-) -> None:
+def test_the_archive_is_sound_without_dates_and_the_second_file_is_the_same(file: Path, tmp_path: Path) -> None:
     with zipfile.ZipFile(file) as archive:
         assert archive.testzip() is None
         assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}

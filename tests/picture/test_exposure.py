@@ -57,9 +57,7 @@ def test_a_part_of_a_window_is_the_same_as_that_part_of_the_whole() -> None:
     whole = box_exposure()
     inner = slice(4, -4), slice(4, -4)
     np.testing.assert_allclose(part.cover[inner], whole.cover[window.rows, window.columns][inner], atol=1e-6)
-    np.testing.assert_allclose(
-        part.colour[inner], whole.colour[window.rows, window.columns][inner], atol=1e-4
-    )
+    np.testing.assert_allclose(part.colour[inner], whole.colour[window.rows, window.columns][inner], atol=1e-4)
 
 
 def test_a_wire_thinner_than_a_pixel_is_still_seen() -> None:

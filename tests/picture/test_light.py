@@ -70,9 +70,7 @@ def test_the_open_sky_has_the_brightness_of_its_integral() -> None:
 def test_a_wall_takes_away_half_of_the_sky() -> None:
     wall = caster((0.01, -900, -900), (0.01, 900, -900), (0.01, 900, 900), (0.01, -900, 900))
     open_sky = sky_light(FAR_BELOW, ORIGIN, UP, UP, sky_directions(4, EVERY)).mean()
-    assert sky_light(wall, ORIGIN, UP, UP, sky_directions(4, EVERY)).mean() == pytest.approx(
-        open_sky / 2, rel=0.02
-    )
+    assert sky_light(wall, ORIGIN, UP, UP, sky_directions(4, EVERY)).mean() == pytest.approx(open_sky / 2, rel=0.02)
 
 
 def test_there_is_no_light_in_a_closed_box() -> None:

@@ -13,9 +13,7 @@ from fabricate.picture.palette import CYCLE, encoded_light, linear_light, part_c
 
 
 @pytest.mark.parametrize(("name", "low", "high"), [("yellow", 38, 60), ("blue", 205, 230)])
-def test_yellow_and_blue_have_the_hue_of_their_name_wherever_they_stand(
-    name: str, low: int, high: int
-) -> None:
+def test_yellow_and_blue_have_the_hue_of_their_name_wherever_they_stand(name: str, low: int, high: int) -> None:
     (colour,) = part_colours([name])
     assert low < 360 * colorsys.rgb_to_hsv(*(value / 255 for value in colour))[0] < high
     assert part_colours(["other", name])[1] == colour

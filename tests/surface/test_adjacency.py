@@ -41,9 +41,7 @@ def test_rows_are_means_of_neighbours_alone(mesh: tuple[np.ndarray, int]) -> Non
 
 
 @given(mesh=triangulations(), chosen=st.sets(st.integers(0, 39), max_size=3), rings=st.integers(0, 5))
-def test_grown_reaches_as_many_edges_as_rings(
-    mesh: tuple[np.ndarray, int], chosen: set[int], rings: int
-) -> None:
+def test_grown_reaches_as_many_edges_as_rings(mesh: tuple[np.ndarray, int], chosen: set[int], rings: int) -> None:
     triangles, count = mesh
     sources = {point for point in chosen if point < count}
     mask = np.isin(np.arange(count), sorted(sources))

@@ -115,7 +115,7 @@ def test_regular_torus_is_a_bicubic_spline(around: int, across: int) -> None:
     def weights(t: np.ndarray, count: int) -> np.ndarray:
         basis = BSpline.basis_element(np.arange(-2.0, 3.0), extrapolate=False)
         offset = (t[..., None] - np.arange(count) + count / 2) % count - count / 2
-        return np.nan_to_num(np.asarray(basis(offset)))
+        return np.asarray(np.nan_to_num(basis(offset)))
 
     grid = quads.points.reshape(around, across, 3)
     wanted = np.einsum("tsi,tsj,ijk->tsk", weights(x, around), weights(y, across), grid)

@@ -13,7 +13,8 @@ VALENCES = st.integers(2, 12)
 # a tile's samples lie some dozen subdivisions from the corner at most
 SOMEWHERE = st.one_of(st.sampled_from([0.0, 0.5, 1.0]), st.floats(1e-5, 1))
 UV = st.lists(st.tuples(SOMEWHERE, SOMEWHERE), min_size=1, max_size=12).map(np.array)
-INSIDE = st.lists(st.tuples(*2 * [st.floats(0.01, 0.99)]), min_size=1, max_size=12).map(np.array)
+WITHIN = st.floats(0.01, 0.99)
+INSIDE = st.lists(st.tuples(WITHIN, WITHIN), min_size=1, max_size=12).map(np.array)
 
 
 def mirrored_numbers(valence: int) -> np.ndarray:

@@ -36,9 +36,7 @@ SHAPES: dict[str, tuple[PolygonMesh, int]] = {
     "torus": (torus(around=10, across=6, tube=0.4).scaled(30), 1),
     "double torus": (HANDLES["double torus"][0].scaled(20), 1),
 }
-PATTERNS = {
-    name: random_duotone(subdivided(mesh, levels=levels), seed=3) for name, (mesh, levels) in SHAPES.items()
-}
+PATTERNS = {name: random_duotone(subdivided(mesh, levels=levels), seed=3) for name, (mesh, levels) in SHAPES.items()}
 shapes = pytest.mark.parametrize("name", PATTERNS)
 
 
@@ -47,7 +45,8 @@ def found_for(duotone: Duotone, tolerance: float, arc: float = 0.5) -> int:
 
 
 def errors_of(duotone: Duotone, resolution: int, arc: float = 0.5) -> np.ndarray:
-    return chord_errors(duotone, LimitSurface.of(duotone.quads), arc=arc, resolution=resolution)
+    surface = LimitSurface.of(duotone.quads)
+    return np.asarray(chord_errors(duotone, surface, arc=arc, resolution=resolution))
 
 
 def along_edges(*, arc: float, resolution: int, yellow_joined: bool, steps: int) -> np.ndarray:
@@ -57,14 +56,13 @@ def along_edges(*, arc: float, resolution: int, yellow_joined: bool, steps: int)
     edges = np.unique(np.sort(np.concatenate([t[:, :2], t[:, 1:], t[:, [0, 2]]]), axis=1), axis=0)
     fraction = np.linspace(0, 1, steps + 1)
     begin, end = template.uv[edges].transpose(1, 0, 2)
-    places = begin[:, None] + fraction[:, None] * (end - begin)[:, None]
+    places: np.ndarray = begin[:, None] + fraction[:, None] * (end - begin)[:, None]
     number = {edge: k for k, edge in enumerate(map(tuple, edges.tolist()))}
     centres = ([1, 0], [0, 1]) if yellow_joined else ([0, 0], [1, 1])
     for samples, centre in zip(template.arcs.tolist(), centres, strict=True):
-        for a, b in pairwise(samples):
-            places[number[min(a, b), max(a, b)]] = bent(
-                *template.uv[[min(a, b), max(a, b)]], centre, fraction
-            )
+        for edge in pairwise(samples):
+            first, last = sorted(edge)
+            places[number[first, last]] = bent(template.uv[first], template.uv[last], centre, fraction)
     return places
 
 

@@ -1,19 +1,21 @@
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from polyhedra import named, polyhedra
 
-from fabricate.duotone.catmull_clark import subdivided
+from fabricate.duotone.catmull_clark import catmull_clark, subdivided
 from fabricate.duotone.quad_mesh import two_coloured
+from fabricate.errors import PatternError
 from fabricate.mesh.cube import cube
 from fabricate.mesh.polygon_mesh import PolygonMesh
-from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.mesh.torus import torus
 from fabricate.surface.limit import LimitSurface, Samples
-from fabricate.surface.sizing import MAX_LEVELS, levels_for, sized, tile_sides
+from fabricate.surface.sizing import sized, tile_sides, tiled
 
 NAMED = named()
 
@@ -71,37 +73,44 @@ def test_tile_sides_run_along_the_half_edges() -> None:
     np.testing.assert_allclose(sides[quads.twins], sides, rtol=1e-12)
 
 
-@given(
-    name=st.sampled_from(sorted(NAMED)),
-    sizes=st.tuples(st.floats(0.2, 100), st.floats(0.2, 100)).map(sorted),
-)
-def test_smaller_tiles_need_more_levels(name: str, sizes: list[float]) -> None:
-    mesh = NAMED[name].scaled(50)
-    small, large = (levels_for(mesh, tile_size=size) for size in sizes)
-    assert 1 <= large <= small <= MAX_LEVELS
+@pytest.mark.parametrize("name", NAMED)
+def test_smaller_tiles_are_more_tiles_and_one_step_makes_four_of_one(name: str) -> None:
+    mesh = sized(NAMED[name], size=80)
+    counts = [len(tiled(mesh, tile_size=size).tiles) for size in (80, 30, 17, 10, 6, 3.5)]
+    assert counts[0] == len(mesh.corners)
+    assert counts == sorted(counts)
+    assert np.log2([count / counts[0] for count in counts]) % 2 == pytest.approx(0)
 
 
-@pytest.mark.parametrize("tile_size", [1.5, 3.0, 7.0, 12.0])
-def test_tiles_come_out_nearest_to_what_was_asked(tile_size: float) -> None:
-    mesh = geodesic_sphere(frequency=1).scaled(50)
-    levels = levels_for(mesh, tile_size=tile_size)
-    misses = [
-        abs(np.log2(np.median(tile_sides(subdivided(mesh, levels=number))) / tile_size))
-        for number in (levels - 1, levels, levels + 1)
-        if number >= 1
-    ]
-    assert min(misses) == misses[-2]
-    assert misses[-2] < 0.55
+@settings(max_examples=20)
+@given(name=st.sampled_from(sorted(NAMED)), tile_size=st.floats(4, 40))
+def test_tiles_come_out_nearest_to_what_was_asked(name: str, tile_size: float) -> None:
+    mesh = sized(NAMED[name], size=100)
+    quads = tiled(mesh, tile_size=tile_size)
+    side = float(np.median(tile_sides(quads)))
+    next_side = float(np.median(tile_sides(catmull_clark(quads).mesh)))
+    assert abs(np.log2(side / tile_size)) <= abs(np.log2(next_side / tile_size)) + 0.1
+    if len(quads.tiles) > len(mesh.corners):
+        assert abs(np.log2(side / tile_size)) < 0.6
 
 
-@given(tile_size=st.floats(0.2, 40), factor=st.floats(0.01, 100))
-def test_only_the_ratio_of_body_and_tile_counts(tile_size: float, factor: float) -> None:
-    mesh = NAMED["cube"].scaled(40)
-    scaled = levels_for(mesh.scaled(factor), tile_size=tile_size * factor)
-    assert abs(scaled - levels_for(mesh, tile_size=tile_size)) <= (0 if factor == 1 else 1)
+@settings(max_examples=20)
+@given(tile_size=st.floats(3, 40), power=st.integers(-10, 10))
+def test_only_the_ratio_of_body_and_tile_counts(tile_size: float, power: int) -> None:
+    mesh, factor = NAMED["cube"].scaled(40), 2.0**power
+    scaled = tiled(mesh.scaled(factor), tile_size=tile_size * factor)
+    quads = tiled(mesh, tile_size=tile_size)
+    assert (scaled.tiles == quads.tiles).all()
+    np.testing.assert_allclose(scaled.points, quads.points * factor, rtol=1e-12)
 
 
-def test_limits_of_what_can_be_asked() -> None:
-    mesh = NAMED["cube"].scaled(40)
-    assert levels_for(mesh, tile_size=1e6) == 1
-    assert levels_for(mesh, tile_size=1e-9) == MAX_LEVELS
+@pytest.mark.parametrize("tile_size", [0.0, -3.0, 80.5, 1e9, float("nan"), float("inf")])
+def test_a_tile_size_that_is_none_or_larger_than_the_body_is_an_error(tile_size: float) -> None:
+    with pytest.raises(PatternError, match=f"the body, which is 80 mm long; found {re.escape(f'{tile_size:g}')} mm"):
+        tiled(NAMED["cube"].scaled(40), tile_size=tile_size)
+
+
+@pytest.mark.parametrize("tile_size", [0.01, 1e-9, 1e-100])
+def test_more_tiles_than_memory_holds_are_an_error(tile_size: float) -> None:
+    with pytest.raises(PatternError, match=r"more than 4000000; ask for a larger pattern\.tile_size"):
+        tiled(NAMED["cube"].scaled(40), tile_size=tile_size)

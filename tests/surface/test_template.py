@@ -50,10 +50,10 @@ def edge_set(triangles: np.ndarray) -> set[tuple[int, int]]:
 
 def matched(found: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Return which of the found points each wanted one is; all must be there, each once."""
-    distance, place = KDTree(found).query(wanted)
+    distance, place = (np.asarray(column) for column in KDTree(found).query(wanted))
     np.testing.assert_allclose(distance, 0, atol=1e-9)
     assert sorted(place.tolist()) == list(range(len(found)))
-    return np.asarray(place)
+    return place
 
 
 def round_corners(yellow_joined: bool) -> np.ndarray:
@@ -132,9 +132,7 @@ def test_both_kinds_divide_their_sides_alike(arc: float, resolution: int) -> Non
 
 
 @given(arc=ARCS, resolution=RESOLUTIONS)
-def test_side_fractions_rise_from_end_to_end_with_the_crossing_in_the_middle(
-    arc: float, resolution: int
-) -> None:
+def test_side_fractions_rise_from_end_to_end_with_the_crossing_in_the_middle(arc: float, resolution: int) -> None:
     fractions = side_fractions(arc=arc, resolution=resolution)
     assert fractions[0] == 0
     assert fractions[-1] == pytest.approx(1, abs=1e-15)
@@ -202,7 +200,8 @@ def test_first_and_last_rays_run_along_the_sides(arc: float, resolution: int, ye
 def test_rays_of_a_joined_tile_meet_in_pairs_on_the_diagonal(arc: float, resolution: int) -> None:
     joined, other = made(arc, resolution, True), made(arc, resolution, False)
     assert joined.rays[0, :, -1].tolist() == joined.rays[1, ::-1, -1].tolist()
-    np.testing.assert_allclose(*joined.uv[joined.rays[0, :, -1]].T, atol=1e-12)
+    u, v = joined.uv[joined.rays[0, :, -1]].T
+    np.testing.assert_allclose(u, v, atol=1e-12)
     assert other.rays[0, :, 0].tolist() == other.rays[1, ::-1, 0].tolist()
     np.testing.assert_allclose(other.uv[other.rays[0, :, 0]].sum(axis=1), 1, atol=1e-12)
 

@@ -1,0 +1,84 @@
+"""Facts measured of a surface, against counts and formulas known beforehand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fabricate.checks.measured import expectations, expected_genus, mesh_facts, pattern_facts
+from fabricate.duotone.certificate import certified
+from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.spanning_tree import grown_duotone
+from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.mesh.torus import torus
+from fabricate.process import PROCESSES
+from fabricate.solid.assembly import Core
+from fabricate.solid.settling import fitted_cut
+from fabricate.solid.solids import solids
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.neck import tile_necks
+from fabricate.surface.sizing import sized, tiled
+
+
+@pytest.fixture(scope="module")
+def mesh() -> PolygonMesh:
+    return sized(torus(around=8, across=4, tube=0.45), size=60)
+
+
+@pytest.fixture(scope="module")
+def duotone(mesh: PolygonMesh) -> Duotone:
+    return grown_duotone(tiled(mesh, tile_size=12), tree="random", seed=3)
+
+
+@pytest.fixture(scope="module")
+def surface(duotone: Duotone) -> CutSurface:
+    return fitted_cut(duotone, tolerance=0.3, clearance=0.3)
+
+
+def test_a_torus_has_the_counts_of_a_torus(mesh: PolygonMesh, surface: CutSurface) -> None:
+    facts = mesh_facts(mesh, surface)
+    assert (facts.vertices, facts.faces, facts.genus) == (32, 32, 1)
+    assert max(facts.size_mm) == pytest.approx(60, rel=0.01)
+    assert facts.size_mm[2] == pytest.approx(60 * 0.45 / 1.45, rel=0.1)
+
+
+def test_a_pattern_is_counted_and_measured(duotone: Duotone, surface: CutSurface) -> None:
+    facts = pattern_facts(duotone, certified(duotone), surface)
+    assert (facts.tiles, facts.curves, facts.regions) == (128, 1, 2)
+    assert facts.handles.yellow + facts.handles.blue == 1
+    assert facts.area_share.yellow + facts.area_share.blue == pytest.approx(1)
+    assert facts.area_share.yellow == pytest.approx(0.5, abs=0.05)
+    assert facts.neck_mm.min <= facts.neck_mm.median < facts.tile_size_mm
+
+
+def test_the_curve_is_two_quarter_circles_per_tile(duotone: Duotone, surface: CutSurface) -> None:
+    """On square tiles of side s that is s pi / 2; tiles here are not quite square."""
+    facts = pattern_facts(duotone, certified(duotone), surface)
+    assert facts.curve_length_mm == pytest.approx(facts.tiles * facts.tile_size_mm * np.pi / 2, rel=0.25)
+
+
+def test_a_wider_arc_position_gives_yellow_more(duotone: Duotone) -> None:
+    share = [
+        pattern_facts(duotone, certified(duotone), fitted_cut(duotone, arc=arc, tolerance=0.3)).area_share.yellow
+        for arc in (0.4, 0.5, 0.6)
+    ]
+    assert np.diff(share) == pytest.approx([np.pi / 20, np.pi / 20], rel=0.3)
+
+
+@pytest.mark.parametrize(("core", "genus"), [("hollow", (2, 4)), ("yellow", (3, 4)), ("blue", (2, 3))])
+def test_solids_have_the_handles_of_both_of_their_sides(core: Core, genus: tuple[int, int]) -> None:
+    assert expected_genus(1, 2, core=core) == {"yellow": genus[0], "blue": genus[1]}
+
+
+def test_expectations_say_what_was_asked_and_made(duotone: Duotone, surface: CutSurface) -> None:
+    made, process = solids(surface, thickness=2.0, clearance=0.3), PROCESSES["fdm"]
+    found = expectations(surface, made, certified(duotone), clearance=0.3, core="hollow", process=process)
+    necks, places = tile_necks(surface)
+    assert found.clearance == 0.3
+    assert found.process == process
+    assert sum(found.genus.values()) == 2
+    assert found.neck is not None
+    assert found.neck.width == necks.min()
+    assert found.neck.at == tuple(places[necks.argmin()])
+    assert found.spaces is not None
+    assert [part.name for part in found.spaces] == ["gap", "shell"]

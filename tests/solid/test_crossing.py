@@ -1,0 +1,78 @@
+"""Crossings: planted ones are found, closed surfaces have none, and nothing near a moved point is missed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from polyhedra import seeds
+
+from fabricate.solid.crossing import crossing_triangles, triangles_near
+
+FLAT = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], dtype=float)
+UPRIGHT = np.array([[0, -0.2, -1], [0.1, -0.2, 1], [0, 0.2, 1]], dtype=float)
+TWO = np.arange(6).reshape(2, 3)
+
+
+def test_two_triangles_that_cross_are_one_pair() -> None:
+    pairs = crossing_triangles(np.concatenate([FLAT, UPRIGHT]), TWO)
+    assert np.sort(pairs, axis=1).tolist() == [[0, 1]]
+
+
+@pytest.mark.parametrize("shift", [1.5, 10.0])
+def test_two_triangles_beside_each_other_are_none(shift: float) -> None:
+    points = np.concatenate([FLAT, UPRIGHT + np.array([0, 0, shift])])
+    assert crossing_triangles(points, TWO).shape == (0, 2)
+
+
+def test_the_test_is_exact() -> None:
+    """The upright triangle's lowest corner reaches through the flat one by one unit in the last place, or not."""
+    through = np.nextafter(0.0, -1.0)
+    for height, found in ((through, 1), (np.nextafter(0.0, 1.0), 0)):
+        tip = np.array([[0, 0, height], [0.1, 0, 1], [-0.1, 0, 1]])
+        assert len(crossing_triangles(np.concatenate([FLAT, tip]), TWO)) == found
+
+
+def test_neighbours_do_not_count() -> None:
+    sphere = trimesh.creation.icosphere(subdivisions=2)
+    assert len(crossing_triangles(np.asarray(sphere.vertices), np.asarray(sphere.faces))) == 0
+
+
+def test_a_folded_sphere_does() -> None:
+    sphere = trimesh.creation.icosphere(subdivisions=2)
+    points = np.array(sphere.vertices)
+    points[0] *= -1.5
+    pairs = crossing_triangles(points, np.asarray(sphere.faces))
+    assert len(pairs) > 0
+    assert (sphere.faces[pairs] == 0).any(axis=(1, 2)).all()
+
+
+def test_nothing_crosses_nothing() -> None:
+    assert crossing_triangles(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)).shape == (0, 2)
+
+
+@given(seed=seeds, count=st.integers(2, 40), spread=st.floats(0.1, 5.0))
+@settings(max_examples=60)
+def test_no_partner_of_a_moved_triangle_is_missed(seed: int, count: int, spread: float) -> None:
+    random = np.random.default_rng(seed)
+    centres = random.uniform(-spread, spread, (count, 1, 3))
+    points = (centres + random.normal(size=(count, 3, 3)) * random.uniform(0.05, 1, (count, 1, 1))).reshape(-1, 3)
+    triangles = np.arange(3 * count).reshape(-1, 3)
+    moved = random.random(len(points)) < 0.2
+    near = set(triangles_near(points, triangles, moved).tolist())
+    own = moved[triangles].any(axis=1)
+    assert set(np.flatnonzero(own).tolist()) <= near
+    pairs = crossing_triangles(points, triangles)
+    assert set(pairs[own[pairs].any(axis=1)].ravel().tolist()) <= near
+
+
+def test_far_triangles_are_left_out() -> None:
+    points = np.concatenate([FLAT, FLAT + 100.0])
+    moved = np.isin(np.arange(6), [1])
+    assert triangles_near(points, TWO, moved).tolist() == [0]
+
+
+def test_nothing_moved_is_near_nothing() -> None:
+    assert len(triangles_near(FLAT, TWO[:1], np.zeros(3, dtype=bool))) == 0

@@ -1,0 +1,111 @@
+"""The inner surface: depth where the body is thin, and points that slide, relax or retreat only where they should."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fabricate.duotone.spanning_tree import grown_duotone
+from fabricate.mesh.sphere import sphere
+from fabricate.mesh.torus import torus
+from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, relaxed, retreated, slid
+from fabricate.solid.settling import fitted_cut
+from fabricate.surface.adjacency import grown, neighbour_means
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.sizing import sized, tiled
+
+DEPTH = 2.0
+
+
+@pytest.fixture(scope="module")
+def surface() -> CutSurface:
+    quads = tiled(sized(torus(around=8, across=4, tube=0.45), size=60), tile_size=12)
+    return fitted_cut(grown_duotone(quads, tree="random", seed=3), tolerance=0.3)
+
+
+@pytest.fixture(scope="module")
+def ball() -> CutSurface:
+    quads = tiled(sized(sphere(faces="triangles", frequency=1), size=40), tile_size=10)
+    return fitted_cut(grown_duotone(quads, tree="random", seed=3), tolerance=0.3)
+
+
+def under(surface: CutSurface) -> np.ndarray:
+    return np.asarray(surface.points - DEPTH * surface.normals)
+
+
+def one(surface: CutSurface, number: int = 40) -> np.ndarray:
+    return np.isin(np.arange(len(surface.points)), [number])
+
+
+def test_a_thick_body_gets_the_whole_thickness(ball: CutSurface) -> None:
+    assert (capped_depth(ball, thickness=DEPTH, between=0.3) == DEPTH).all()
+
+
+def test_two_walls_and_what_is_between_them_fit_into_a_thin_body(ball: CutSurface) -> None:
+    depth = capped_depth(ball, thickness=30.0, between=4.0)
+    radius = np.linalg.norm(ball.points, axis=1)
+    assert depth.max() <= radius.max() - 4.0 / 2
+    assert depth.min() >= 0.9 * radius.min() - 4.0 / 2
+
+
+def test_depth_changes_gently(surface: CutSurface) -> None:
+    depth = capped_depth(surface, thickness=12.0, between=1.0)
+    assert np.ptp(depth) > 0.1
+    for k in range(3):
+        begin, end = surface.triangles[:, k], surface.triangles[:, k - 1]
+        length = np.linalg.norm(surface.points[begin] - surface.points[end], axis=1)
+        assert (np.abs(depth[begin] - depth[end]) <= DEPTH_SLOPE * length + 1e-9).all()
+
+
+def test_even_a_hopeless_body_keeps_a_tenth(ball: CutSurface) -> None:
+    assert capped_depth(ball, thickness=DEPTH, between=100.0) == pytest.approx(np.full(len(ball.points), 0.1 * DEPTH))
+
+
+def test_sliding_keeps_every_depth_and_all_that_is_far(surface: CutSurface) -> None:
+    means = neighbour_means(surface.triangles, count=len(surface.points))
+    inner, faulty = under(surface), one(surface)
+    moved = slid(surface, inner, faulty, means) - inner
+    assert moved[faulty].any()
+    assert np.einsum("ij,ij->i", moved, surface.normals) == pytest.approx(0.0, abs=1e-9)
+    assert not moved[~grown(faulty, means, 40)].any()
+
+
+def test_relaxing_flattens_a_spike_and_leaves_what_is_far(surface: CutSurface) -> None:
+    means = neighbour_means(surface.triangles, count=len(surface.points))
+    inner, faulty = under(surface), one(surface)
+    spiky = inner + 1.5 * faulty[:, None] * surface.normals
+    flat = relaxed(spiky, faulty, means)
+    assert np.linalg.norm((flat - inner)[faulty]) < 0.5 * np.linalg.norm((spiky - inner)[faulty])
+    assert (flat == spiky)[~grown(faulty, means, 3)].all()
+
+
+def test_retreating_goes_towards_the_safe_depth_and_never_beyond(surface: CutSurface) -> None:
+    means = neighbour_means(surface.triangles, count=len(surface.points))
+    inner, safe, faulty = under(surface), surface.points - 0.1 * surface.normals, one(surface)
+    moved = retreated(surface, inner, faulty, means, safe=safe)
+    depth = np.einsum("ij,ij->i", surface.points - moved, surface.normals)
+    assert depth.min() >= 0.1 - 1e-9
+    assert depth.max() <= DEPTH + 1e-9
+    assert depth[faulty].max() < 0.7 * DEPTH
+
+
+def test_a_ray_retreats_as_a_whole(surface: CutSurface) -> None:
+    means = neighbour_means(surface.triangles, count=len(surface.points))
+    ray = surface.curve_rays[9]
+    inner, safe = under(surface), surface.points - 0.1 * surface.normals
+    moved = retreated(surface, inner, one(surface, int(ray[1])), means, safe=safe)
+    way = np.linalg.norm(moved - inner, axis=1)[ray]
+    assert way == pytest.approx(np.full(len(ray), way[0]))
+    assert way[0] > 0
+
+
+@pytest.mark.parametrize("kind", ["slid", "relaxed", "retreated"])
+def test_nothing_faulty_moves_nothing(surface: CutSurface, kind: str) -> None:
+    means = neighbour_means(surface.triangles, count=len(surface.points))
+    inner, none = under(surface), np.zeros(len(surface.points), dtype=bool)
+    result = {
+        "slid": lambda: slid(surface, inner, none, means),
+        "relaxed": lambda: relaxed(inner, none, means),
+        "retreated": lambda: retreated(surface, inner, none, means, safe=surface.points),
+    }[kind]()
+    assert (result == inner).all()

@@ -1,0 +1,311 @@
+"""The straight line end to end: all files or none, what the report says, and what `check` finds."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fabricate import pipeline
+from fabricate.checks.report import Report
+from fabricate.cli import main
+from fabricate.config import load_config
+from fabricate.errors import OutputError
+from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.mesh.torus import torus
+from fabricate.output.stl import TRIANGLE
+
+CONFIG = """
+[source]
+shape = "torus"
+size = "60 mm"
+around = 8
+across = 4
+
+[pattern]
+tile_size = "12 mm"
+seed = 7
+
+[solid]
+thickness = "2 mm"
+tolerance = "0.3 mm"
+"""
+FILES = {
+    *("yellow.stl", "blue.stl", "pair.3mf", "preview.png", "preview.glb"),
+    *("curve.ply", "report.json", "config.toml"),
+}
+CONFIGS = sorted((Path(__file__).parents[1] / "configs").glob("*.toml"))
+JUDGE = os.environ.get("FABRICATE_VERIFY", "")
+
+
+def silent(_: str) -> None:
+    """Hear of a stage and say nothing."""
+
+
+def run(path: Path, out: Path, *overrides: str) -> Report:
+    return pipeline.run(load_config(path, overrides), name=path.stem, out=out, progress=silent)
+
+
+@pytest.fixture(scope="module")
+def config(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("config") / "small.toml"
+    path.write_text(CONFIG)
+    return path
+
+
+@pytest.fixture(scope="module")
+def made(config: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a finished run."""
+    out = tmp_path_factory.mktemp("out")
+    assert run(config, out).ok
+    return out / "small"
+
+
+@pytest.fixture(scope="module")
+def report(made: Path) -> dict[str, Any]:
+    return dict(json.loads((made / "report.json").read_text()))
+
+
+@pytest.fixture
+def copy(made: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(made, tmp_path / "small"))
+
+
+def test_every_file_is_there_and_nothing_else(made: Path) -> None:
+    assert {path.name for path in made.iterdir()} == FILES
+    assert [path.name for path in made.parent.iterdir()] == ["small"]
+
+
+def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None:
+    assert set(report) == {
+        *("name", "ok", "config_sha256", "versions", "mesh"),
+        *("pattern", "parts", "fit", "checks", "seconds"),
+    }
+    assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm"}
+    assert set(report["pattern"]) == {
+        *("tiles", "tile_size_mm", "curves", "regions", "curve_length_mm"),
+        *("area_share", "handles", "neck_mm"),
+    }
+    assert set(report["parts"]) == {"yellow", "blue"}
+    for part in report["parts"].values():
+        assert set(part) == {
+            *("file", "triangles", "volume_mm3", "area_mm2", "genus"),
+            *("components", "watertight", "self_intersections", "wall_mm"),
+        }
+        assert set(part["wall_mm"]) == {"min", "median"}
+    assert set(report["fit"]) == {"clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm"}
+    assert set(report["fit"]["gap_mm"]) == {"min", "at"}
+    assert set(report["fit"]["play_mm"]) == {"x", "y", "z", "rx", "ry", "rz"}
+    assert all(set(check) == {"code", "ok", "skipped", "message", "where"} for check in report["checks"])
+
+
+def test_the_report_proves_the_pair(report: dict[str, Any]) -> None:
+    pattern, handles = report["pattern"], report["pattern"]["handles"]
+    assert (report["ok"], report["name"], report["mesh"]["genus"]) == (True, "small", 1)
+    assert (pattern["curves"], pattern["regions"]) == (1, 2)
+    assert sum(handles.values()) == 1
+    assert sum(pattern["area_share"].values()) == pytest.approx(1, abs=1e-5)
+    for colour, part in report["parts"].items():
+        assert part["genus"] == 2 * handles[colour]
+        assert (part["watertight"], part["components"], part["self_intersections"]) == (True, 1, 0)
+    assert report["fit"]["verdict"] == "captive"
+    assert report["fit"]["gap_mm"]["min"] >= 0.95 * 0.3
+    assert report["fit"]["overlap_mm3"] == 0
+
+
+def test_every_stage_is_timed_and_told(config: Path, tmp_path: Path, report: dict[str, Any]) -> None:
+    told: list[str] = []
+    pipeline.run(load_config(config), name="small", out=tmp_path, progress=told.append)
+    assert told == list(report["seconds"])
+    assert told[0] == "read"
+    assert all(seconds >= 0 for seconds in report["seconds"].values())
+
+
+def test_the_hash_is_that_of_the_config_file(made: Path, report: dict[str, Any]) -> None:
+    assert report["config_sha256"] == hashlib.sha256((made / "config.toml").read_bytes()).hexdigest()
+
+
+def test_the_resolved_config_makes_the_same_bytes(made: Path, tmp_path: Path) -> None:
+    path = tmp_path / "small.toml"
+    shutil.copy(made / "config.toml", path)
+    run(path, tmp_path / "again")
+    for name in FILES - {"report.json"}:
+        assert (tmp_path / "again" / "small" / name).read_bytes() == (made / name).read_bytes(), name
+
+
+def test_another_seed_makes_another_pair(made: Path, config: Path, tmp_path: Path) -> None:
+    run(config, tmp_path, "pattern.seed=8")
+    assert (tmp_path / "small" / "yellow.stl").read_bytes() != (made / "yellow.stl").read_bytes()
+
+
+def status(*arguments: str) -> int:
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    return int(caught.value.code or 0)
+
+
+def test_check_passes_what_run_made(copy: Path) -> None:
+    assert status("check", str(copy)) == 0
+    assert status("check", str(copy / "yellow.stl"), str(copy / "blue.stl"), "--clearance", "0.3 mm") == 0
+
+
+def move_vertex(path: Path, *, by: float) -> None:
+    """Move one vertex of a binary STL away from the origin, in all of its triangles, and nothing else."""
+    data = bytearray(path.read_bytes())
+    corners = np.frombuffer(data, TRIANGLE, offset=84)["corners"]
+    chosen = (corners == corners[0, 0]).all(axis=2)
+    corners[chosen] += np.float32(by) * corners[0, 0] / np.linalg.norm(corners[0, 0])
+    path.write_bytes(data)
+
+
+def test_check_notices_a_moved_vertex(copy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    move_vertex(copy / "yellow.stl", by=8.0)
+    assert status("check", str(copy)) == 1
+    said = capsys.readouterr().out
+    assert "FAILED  yellow.recorded_volume" in said
+    assert "FAILED  blue.recorded_volume" not in said
+
+
+@pytest.mark.parametrize("name", ["write_sculpture", "report_json"])
+def test_nothing_remains_of_a_run_that_fails(
+    config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise OutputError("disk full")
+
+    monkeypatch.setattr(pipeline, name, fail)
+    with pytest.raises(OutputError, match="disk full"):
+        run(config, tmp_path / "out")
+    assert not list(tmp_path.iterdir())
+
+
+def test_results_from_before_survive_a_run_that_fails(
+    config: Path, copy: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = {path.name: path.read_bytes() for path in copy.iterdir()}
+
+    def fail(*_: object, **__: object) -> None:
+        raise OutputError("disk full")
+
+    monkeypatch.setattr(pipeline, "report_json", fail)
+    with pytest.raises(OutputError):
+        run(config, copy.parent)
+    assert {path.name: path.read_bytes() for path in copy.iterdir()} == before
+    assert [path.name for path in copy.parent.iterdir()] == ["small"]
+
+
+def obj(mesh: PolygonMesh, *, drop: int = 0, shift: float | None = None) -> str:
+    """Return a mesh as OBJ text, without its last faces, or with a shifted copy of itself beside it."""
+    faces = np.split(mesh.corners, mesh.offsets[1:-1])[: len(mesh.offsets) - 1 - drop]
+    points = mesh.points
+    if shift is not None:
+        faces += [face + len(points) for face in faces]
+        points = np.concatenate([points, points + shift])
+    lines = [f"v {x} {y} {z}" for x, y, z in points]
+    return "\n".join(lines + ["f " + " ".join(str(number + 1) for number in face) for face in faces])
+
+
+EVEN, ODD = torus(around=8, across=4, tube=0.45), torus(around=7, across=5, tube=0.45)
+MESHES = {
+    "good.obj": obj(EVEN),
+    "open.obj": obj(EVEN, drop=1),
+    "several.obj": obj(EVEN, shift=5.0),
+    "nan.obj": obj(EVEN).replace("v ", "v nan ", 1),
+    "odd.obj": obj(ODD),
+    "text.obj": "this is not a mesh",
+}
+WRONG = {
+    "missing file": ('path = "none.obj"', [], "none.obj"),
+    "not a mesh": ('path = "text.obj"', [], "text.obj"),
+    "open boundary": ('path = "open.obj"', [], "open"),
+    "several components": ('path = "several.obj"', [], "2"),
+    "nan": ('path = "nan.obj"', [], "nan"),
+    "odd cycle": ('path = "odd.obj"', ["pattern.levels=0"], "cycle"),
+    "wide clearance": ('shape = "torus"', ["pattern.tile_size=20mm", "solid.clearance=15mm"], "clearance"),
+    "large tiles": ('shape = "torus"', ["pattern.tile_size=500mm"], "tile"),
+    "no thickness": ('shape = "torus"', ["solid.thickness=0mm"], "thickness"),
+    "unknown key": ('shape = "torus"\nsizes = "60 mm"', [], "size"),
+    "unknown shape": ('shape = "tors"', [], "torus"),
+}
+
+
+@pytest.mark.parametrize("kind", WRONG)
+def test_wrong_input_is_one_line_and_status_2(tmp_path: Path, capsys: pytest.CaptureFixture[str], kind: str) -> None:
+    source, overrides, word = WRONG[kind]
+    for name, text in MESHES.items():
+        (tmp_path / name).write_text(text)
+    path = tmp_path / "wrong.toml"
+    path.write_text(f'[source]\n{source}\n[solid]\ntolerance = "0.4 mm"\n')
+    sets = [part for override in overrides for part in ("--set", override)]
+    assert status("run", str(path), "--out", str(tmp_path / "out"), *sets) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.count("\n") == 1
+    assert word in said.err
+    assert "Traceback" not in said.err
+    assert "internal error" not in said.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_mesh_from_a_file_makes_a_pair(tmp_path: Path) -> None:
+    (tmp_path / "good.obj").write_text(MESHES["good.obj"])
+    path = tmp_path / "file.toml"
+    path.write_text(CONFIG.replace('shape = "torus"', 'path = "good.obj"').replace("around = 8\nacross = 4\n", ""))
+    report = run(path, tmp_path / "out")
+    assert report.mesh is not None
+    assert (report.mesh.vertices, report.mesh.faces) == (32, 32)
+    assert not failed(report, with_printability=False)
+
+
+def failed(report: Report, *, with_printability: bool) -> list[str]:
+    """Return the sentences of failed checks; walls and necks are made for the intended tile size only."""
+    of_the_process = (".wall", "pattern.neck", "fit.process_gap")
+    return [
+        check.message
+        for check in report.checks
+        if check.failed and (with_printability or not check.code.endswith(of_the_process))
+    ]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
+def test_every_config_makes_a_sound_pair(path: Path, tmp_path: Path) -> None:
+    """At low resolution: topology and fit have to hold, walls and necks need not be printable."""
+    report = run(path, tmp_path, "pattern.tile_size=14mm", "solid.tolerance=0.4mm")
+    assert not failed(report, with_printability=False)
+    assert report.pattern is not None
+    assert (report.pattern.curves, report.pattern.regions) == (1, 2)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not JUDGE, reason="FABRICATE_VERIFY names no judge of STL files")
+@pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
+def test_an_independent_judge_agrees(path: Path, tmp_path: Path) -> None:
+    run(path, tmp_path, "pattern.tile_size=14mm", "solid.tolerance=0.4mm")
+    clearance = load_config(path).solid.clearance
+    parts = [str(tmp_path / path.stem / f"{name}.stl") for name in ("yellow", "blue")]
+    sizes = ["--clearance", str(clearance)] if clearance else []
+    judged = subprocess.run([sys.executable, JUDGE, *parts, *sizes], capture_output=True, text=True, check=False)
+    assert judged.returncode == 0, judged.stdout + judged.stderr
+
+
+@pytest.mark.slow
+def test_one_job_and_two_make_the_same_bytes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    paths = [tmp_path / f"{name}.toml" for name in ("first", "second")]
+    for seed, path in enumerate(paths):
+        path.write_text(CONFIG.replace("seed = 7", f"seed = {seed}"))
+    for jobs in ("1", "2"):
+        assert status("run", *map(str, paths), "--out", str(tmp_path / jobs), "--jobs", jobs) == 0
+    assert capsys.readouterr().err == ""
+    for name in FILES - {"report.json"}:
+        for stem in ("first", "second"):
+            one, two = (tmp_path / jobs / stem / name for jobs in ("1", "2"))
+            assert one.read_bytes() == two.read_bytes(), name
