@@ -28,6 +28,9 @@ Core: TypeAlias = Literal["hollow", "yellow", "blue"]
 CORRECTIONS, MOST_ADDED = 3, 1.25
 """How often walls that are too near are moved apart, and by which factor at most each time."""
 
+LEAST_COSINE = 0.5
+"""Smallest cosine at folds of the inner surface that is made up for under it."""
+
 NOTHING_MISSING = 1.01
 """Clearance over measured gap from which on walls are moved apart."""
 
@@ -133,7 +136,22 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, core: Core)
         wanted = wanted * np.clip(_widened(missing), 1.0, MOST_ADDED)
     if core == "hollow":
         return [outer_layer, inner_layer]
-    return [outer_layer, inner_layer, layer(surface, inner + clearance * down, down, clearance=wanted)]
+    floor = inner + (clearance / _steepest(surface, inner, down))[:, None] * down
+    return [outer_layer, inner_layer, layer(surface, floor, down, clearance=wanted)]
+
+
+def _steepest(surface: CutSurface, points: Floats, down: Floats) -> Floats:
+    """Return the smallest cosine between `down` and the triangles' own way down around each point, (n,) float.
+
+    A copy moved by a distance over this keeps at least that distance from every triangle.
+    """
+    a, b, c = (points[surface.triangles[:, k]] for k in range(3))
+    facets = unit(np.cross(b - a, c - a))
+    steepest: Floats = np.ones(len(points))
+    for k in range(3):
+        corner = surface.triangles[:, k]
+        np.minimum.at(steepest, corner, -np.einsum("ij,ij->i", facets, down[corner]))
+    return np.maximum(steepest, LEAST_COSINE)
 
 
 def _widened(values: Floats) -> Floats:

@@ -12,8 +12,8 @@ from fabricate.solid.crossing import crossing_triangles, triangles_near
 GAP_SHARE = 0.965
 """A gap below this share of the clearance is a fault here; the promise to the user is 0.95."""
 
-ALONG_EDGE = np.array([[0.5, 0.5]])
-"""Where edges are measured, as weights of their ends."""
+ALONG_EDGE = np.array([[0.75, 0.25], [0.5, 0.5], [0.25, 0.75]])
+"""Where edges longer than the clearance are measured, as weights of their ends."""
 
 
 def crossing_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
@@ -36,8 +36,8 @@ def crossing_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mas
 def near_points(assembly: Assembly, *, clearance: float) -> Mask:
     """Return the surface points, (n,) bool, under which the parts are nearer than the clearance allows.
 
-    Each part is measured at its points, and along its edges where these could come too near: a point of an edge
-    is no nearer than half of what its ends' distances add up to beyond its length.
+    Each part is measured at its points, and along its long edges where these could come too near: a point of an
+    edge is no nearer than half of what its ends' distances add up to beyond its length.
     """
     least = GAP_SHARE * clearance
     near = []
@@ -50,7 +50,7 @@ def near_points(assembly: Assembly, *, clearance: float) -> Mask:
         edges = edges[edges[:, 0] < edges[:, 1]]
         ends = assembly.points[edges]
         length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        close = distance[edges].sum(axis=1) - length < 2.0 * least
+        close = (length > clearance) & (distance[edges].sum(axis=1) - length < 2.0 * least)
         samples = np.einsum("sk,ekj->esj", ALONG_EDGE, ends[close])
         found = distances(samples.reshape(-1, 3), assembly.points, other).reshape(samples.shape[:2])
         near.append(edges[close][(found < least).any(axis=1)].ravel())

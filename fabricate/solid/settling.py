@@ -28,8 +28,9 @@ ENOUGH = 0.99
 BENEATH = 0.08
 """The clearance must fit on the surface and this far below it, mm: a wall is at least as thick."""
 
-ROUNDS, STEP = 40, 0.25
-"""Rounds of measuring and sliding, and the share of the way to the mean that points move in each."""
+ROUNDS, PATIENCE, STEP = 40, 6, 0.25
+"""Rounds of measuring and sliding, rounds without progress before giving up, and the share of the way to the mean
+that points move in each."""
 
 
 def fitted_cut(duotone: Duotone, *, arc: float = 0.5, tolerance: float = 0.05, clearance: float = 0.0) -> CutSurface:
@@ -51,9 +52,11 @@ def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) 
     """Return the cut surface of the duotone, its tiles slid where the clearance, mm, does not fit."""
     quads = duotone.quads
     surface = cut(duotone, LimitSurface.of(quads), arc=arc, resolution=resolution)
+    fewest, waited = len(duotone.joined) + 1, 0
     for _ in range(ROUNDS if clearance > 0.0 else 0):
         tight = tight_tiles(surface, clearance=clearance)
-        if not tight.any():
+        fewest, waited = min(fewest, int(tight.sum())), waited + 1 if tight.sum() >= fewest else 0
+        if not tight.any() or waited == PATIENCE:
             break
         quads = _slid(quads, tight)
         surface = cut(replace(duotone, quads=quads), LimitSurface.of(quads), arc=arc, resolution=resolution)

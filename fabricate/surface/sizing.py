@@ -37,8 +37,8 @@ def tile_sides(quads: QuadMesh) -> Floats:
 def tiled(mesh: PolygonMesh, *, tile_size: float) -> QuadMesh:
     """Return the mesh subdivided until its median tile side is as near to `tile_size` mm as it gets.
 
-    There is at least one Catmull-Clark step. Each halves the sides, so the result is within a factor of the
-    square root of 2 of what was asked, unless the mesh's own faces are smaller than that already.
+    There is at least one Catmull-Clark step. Each halves the sides, so the result is within about a factor of
+    the square root of 2 of what was asked, unless the mesh's own faces are smaller than that already.
 
     Raises
     ------
@@ -52,11 +52,20 @@ def tiled(mesh: PolygonMesh, *, tile_size: float) -> QuadMesh:
             f"found {tile_size:g} mm"
         )
     quads = subdivided(mesh, levels=1)
-    steps = int(np.rint(np.log2(float(np.median(tile_sides(quads))) / tile_size)))
-    if steps > 0.5 * np.log2(MAX_TILES / len(quads.tiles)):
-        raise PatternError(
-            f"tiles of {tile_size:g} mm would be more than {MAX_TILES}; ask for a larger pattern.tile_size"
-        )
-    for _ in range(steps):
-        quads = catmull_clark(quads).mesh
+    miss = _miss(quads, tile_size)
+    while miss > 0.0:
+        if 4 * len(quads.tiles) > MAX_TILES:
+            raise PatternError(
+                f"tiles of {tile_size:g} mm would be more than {MAX_TILES}; ask for a larger pattern.tile_size"
+            )
+        finer = catmull_clark(quads).mesh
+        finer_miss = _miss(finer, tile_size)
+        if abs(finer_miss) > miss:
+            break
+        quads, miss = finer, finer_miss
     return quads
+
+
+def _miss(quads: QuadMesh, tile_size: float) -> float:
+    """Return by how many halvings the median tile side is too long, negative when it is too short."""
+    return float(np.log2(float(np.median(tile_sides(quads))) / tile_size))

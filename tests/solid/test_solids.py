@@ -75,7 +75,7 @@ def made() -> Callable[..., Made]:
     def make(name: str, clearance: float, core: Core = "hollow") -> Made:
         key = (name, clearance, core)
         if key not in known:
-            surface, certificate = cut_body(name, clearance=clearance, tolerance=TOLERANCES.get(name, 0.3))
+            surface, certificate = cut_body(name, clearance=clearance)
             known[key] = Made(
                 surface, certificate, solids(surface, thickness=THICKNESS, clearance=clearance, core=core)
             )
@@ -84,7 +84,6 @@ def made() -> Callable[..., Made]:
     return make
 
 
-TOLERANCES: dict[str, float] = {}
 each_body = pytest.mark.parametrize("name", BODIES)
 each_clearance = pytest.mark.parametrize("clearance", [0.2, 0.3, 0.5])
 
