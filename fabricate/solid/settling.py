@@ -16,6 +16,7 @@ from scipy.sparse import coo_array
 from fabricate.arrays import Floats, Mask
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.errors import SolidError
 from fabricate.solid.clearance import clearance_shares, ray_sides, too_near
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
@@ -28,7 +29,10 @@ ENOUGH = 0.99
 BENEATH = 0.08
 """The clearance must fit on the surface and this far below it, mm: a wall is at least as thick."""
 
-ROUNDS, PATIENCE, STEP = 40, 6, 0.25
+MOST_TIGHT = 0.1
+"""With a larger share of tight tiles there is no room to take from."""
+
+ROUNDS, PATIENCE, STEP = 40, 4, 0.25
 """Rounds of measuring and sliding, rounds without progress before giving up, and the share of the way to the mean
 that points move in each."""
 
@@ -43,6 +47,8 @@ def fitted_cut(duotone: Duotone, *, arc: float = 0.5, tolerance: float = 0.05, c
     PatternError
         If the arc position is out of range, the tolerance would need too many triangles, or the duotone has
         more than one curve.
+    SolidError
+        If the clearance does not fit into more than a tenth of the tiles.
     """
     resolution = resolution_for(duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance)
     return settled(duotone, clearance=clearance, arc=arc, resolution=resolution)
@@ -55,6 +61,11 @@ def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) 
     fewest, waited = len(duotone.joined) + 1, 0
     for _ in range(ROUNDS if clearance > 0.0 else 0):
         tight = tight_tiles(surface, clearance=clearance)
+        if tight.mean() > MOST_TIGHT:
+            raise SolidError(
+                f"a clearance of {clearance:g} mm does not fit into {int(tight.sum())} of {len(tight)} tiles; "
+                "ask for a smaller solid.clearance, or divide a mesh with larger faces"
+            )
         fewest, waited = min(fewest, int(tight.sum())), waited + 1 if tight.sum() >= fewest else 0
         if not tight.any() or waited == PATIENCE:
             break

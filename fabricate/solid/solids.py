@@ -7,14 +7,18 @@ import numpy as np
 from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
+from fabricate.solid.crossing import crossing_triangles
 from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.inset import SAFE_DEPTH, capped_depth, relaxed, retreated, slid
 from fabricate.surface.adjacency import neighbour_means
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.neck import tile_necks
 
-RETREAT_FROM, RELAX_UNTIL, ALL_ROUNDS = 12, 12, 60
+RETREAT_FROM, RELAX_UNTIL, ALL_ROUNDS = 12, 12, 45
 """Rounds from which stubborn places also retreat, after which they only do, and in all; the checks report the rest."""
+
+PATIENCE = 16
+"""Rounds without progress after which mending gives up."""
 
 CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
@@ -28,18 +32,22 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     Raises
     ------
     SolidError
-        If the thickness is not positive, or the clearance is negative or as wide as the necks.
+        If the thickness is not positive, the clearance is negative or as wide as the necks, or the surface
+        crosses itself.
     """
     _check_sizes(surface, thickness, clearance)
+    _check_embedded(surface)
     between = 1.1 * clearance if core == "hollow" else 2.0 * clearance + CORE_WEB
     depth = capped_depth(surface, thickness=thickness, between=between)
     inner, safe = _under(surface, depth), _under(surface, SAFE_DEPTH * depth)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
+    fewest, waited = len(inner) + 1, 0
     for step in range(ALL_ROUNDS):
         made = assembly(surface, inner, clearance=clearance, core=core)
         faulty = _faults(made, clearance, moved, all_kinds=step < RETREAT_FROM)
-        if not faulty.any():
+        fewest, waited = min(fewest, int(faulty.sum())), waited + 1 if faulty.sum() >= fewest else 0
+        if not faulty.any() or waited == PATIENCE:
             return made
         mended = slid(surface, inner, faulty, means) if step < RETREAT_FROM else inner
         if step < RELAX_UNTIL:
@@ -79,4 +87,14 @@ def _check_sizes(surface: CutSurface, thickness: float, clearance: float) -> Non
         raise SolidError(
             f"a clearance of {clearance:g} mm leaves nothing of necks that are {neck:.3g} mm wide; "
             "ask for a smaller solid.clearance or a larger pattern.tile_size"
+        )
+
+
+def _check_embedded(surface: CutSurface) -> None:
+    pairs = crossing_triangles(surface.points, surface.triangles)
+    if len(pairs):
+        x, y, z = surface.points[surface.triangles[pairs[0, 0]]].mean(axis=0)
+        raise SolidError(
+            f"the surface crosses itself, {len(pairs)} pairs of triangles do, one at ({x:.2f}, {y:.2f}, {z:.2f}) mm "
+            "of the sized sculpture; no wall can cure that: mend the mesh there"
         )
