@@ -14,11 +14,8 @@ from fabricate.surface.adjacency import neighbour_means
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.neck import tile_necks
 
-RETREAT_FROM, RELAX_UNTIL, ALL_ROUNDS = 12, 12, 45
+RETREAT_FROM, RELAX_UNTIL, ALL_ROUNDS = 12, 12, 60
 """Rounds from which stubborn places also retreat, after which they only do, and in all; the checks report the rest."""
-
-PATIENCE = 16
-"""Rounds without progress after which mending gives up."""
 
 CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
@@ -42,12 +39,10 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     inner, safe = _under(surface, depth), _under(surface, SAFE_DEPTH * depth)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
-    fewest, waited = len(inner) + 1, 0
     for step in range(ALL_ROUNDS):
         made = assembly(surface, inner, clearance=clearance, core=core)
         faulty = _faults(made, clearance, moved, all_kinds=step < RETREAT_FROM)
-        fewest, waited = min(fewest, int(faulty.sum())), waited + 1 if faulty.sum() >= fewest else 0
-        if not faulty.any() or waited == PATIENCE:
+        if not faulty.any():
             return made
         mended = slid(surface, inner, faulty, means) if step < RETREAT_FROM else inner
         if step < RELAX_UNTIL:
