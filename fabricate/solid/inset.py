@@ -2,8 +2,8 @@
 
 Straight down by the thickness folds wherever the surface bends more sharply than that, or the body is thinner than two
 walls. So the depth is capped where the body is thin, and where an exact test finds a fault the inner points around it
-are relaxed: moved towards the mean of their neighbours, which opens a fold without thinning the wall. Only what
-relaxing does not cure is moved back towards the surface.
+slide sideways to where there is room and are relaxed: moved towards the mean of their neighbours, which opens a fold
+without thinning the wall. Only what this does not cure is moved back towards the surface.
 """
 
 from __future__ import annotations
