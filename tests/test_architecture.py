@@ -15,6 +15,7 @@ TESTS = Path(__file__).parent
 
 ROWS = [
     {"errors", "units", "arrays", "process", "config"},
+    {"triangles"},
     {"mesh"},
     {"duotone"},
     {"surface"},

@@ -9,8 +9,8 @@ import numpy as np
 from manifold3d import Manifold
 
 from fabricate.arrays import Floats, Indices, frozen
-from fabricate.checks.distance import SearchTree
 from fabricate.checks.facts import Gap
+from fabricate.triangles.search_tree import SearchTree
 
 SEARCH = 1.2
 """How far is looked for an exact gap, in clearances: farther costs time and nobody asks."""
@@ -50,8 +50,8 @@ class Spacing:
     @classmethod
     def between(cls, first: SearchTree, second: SearchTree) -> Spacing:
         """Measure from every vertex of both parts."""
-        to_second = second.nearest(first.part.points).distance
-        return cls(first, second, to_second, first.nearest(second.part.points).distance)
+        to_second = second.nearest(first.points).distance
+        return cls(first, second, to_second, first.nearest(second.points).distance)
 
 
 class _Spot(NamedTuple):
@@ -102,8 +102,8 @@ def _vertex_spots(spacing: Spacing) -> tuple[_Spot, _Spot]:
     """Return the nearest vertex of either part."""
     i, j = int(spacing.to_second.argmin()), int(spacing.to_first.argmin())
     return (
-        _Spot(float(spacing.to_second[i]), spacing.first.part.points[i], spacing.second),
-        _Spot(float(spacing.to_first[j]), spacing.second.part.points[j], spacing.first),
+        _Spot(float(spacing.to_second[i]), spacing.first.points[i], spacing.second),
+        _Spot(float(spacing.to_first[j]), spacing.second.points[j], spacing.first),
     )
 
 
@@ -120,7 +120,7 @@ def _on_edges(own: SearchTree, other: SearchTree, distances: Floats, spot: _Spot
 
     Pieces of edges are halved, the most promising first, until one end is near enough (branch and bound).
     """
-    pieces = _edge_pieces(own.part.points, own.part.triangles, distances)
+    pieces = _edge_pieces(own.points, own.triangles, distances)
     for _ in range(ROUNDS):
         least = pieces.least
         order = np.argsort(least, kind="stable")[:MOST_PIECES]

@@ -9,6 +9,7 @@ from fabricate.arrays import Floats, Indices
 from fabricate.checks.check import Check
 from fabricate.checks.wording import counted
 from fabricate.solid.part import Part
+from fabricate.triangles.normals import area_vectors
 
 VOLUME_TOLERANCE = 1e-6
 """Largest relative difference between Manifold's volume of a part and ours."""
@@ -30,27 +31,8 @@ def area(part: Part) -> float:
 
 def triangle_areas(part: Part) -> Floats:
     """Return the area of each triangle, (m,) float, mm2."""
-    areas: Floats = 0.5 * np.linalg.norm(area_vectors(part), axis=1)
+    areas: Floats = 0.5 * np.linalg.norm(area_vectors(part.points, part.triangles), axis=1)
     return areas
-
-
-def area_vectors(part: Part) -> Floats:
-    """Return for each triangle the outward normal as long as twice its area, (m, 3) float, mm2."""
-    return _area_vectors(part.points[part.triangles])
-
-
-def unit_normals(part: Part, triangles: Indices) -> Floats:
-    """Return the outward unit normals of the triangles with the given numbers, (k, 3); zero without area."""
-    vectors = _area_vectors(part.points[part.triangles[triangles]])
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    normals: Floats = vectors / np.where(lengths > 0.0, lengths, 1.0)
-    return normals
-
-
-def _area_vectors(corners: Floats) -> Floats:
-    first, second, third = np.moveaxis(corners, 1, 0)
-    vectors: Floats = np.cross(second - first, third - first)
-    return vectors
 
 
 def as_manifold(part: Part) -> Manifold:
@@ -80,7 +62,7 @@ def self_intersection_check(part: Part, pairs: Indices) -> Check:
     ----------
     part : Part
     pairs : (k, 2) int
-        As `fabricate.solid.crossing.crossing_triangles` returns them.
+        As `fabricate.triangles.crossing.crossing_triangles` returns them.
     """
     code = f"{part.name}.self_intersections"
     if not len(pairs):

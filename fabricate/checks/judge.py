@@ -53,8 +53,8 @@ from fabricate.checks.topology import topology
 from fabricate.checks.walls import walls
 from fabricate.errors import ReadError
 from fabricate.mesh.reading import read_mesh
-from fabricate.solid.crossing import crossing_triangles
 from fabricate.solid.part import Part
+from fabricate.triangles.crossing import crossing_triangles
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,11 +26,11 @@ from scipy.optimize import linprog
 
 from fabricate.arrays import Floats, Indices
 from fabricate.checks.check import Check
-from fabricate.checks.distance import SearchTree
 from fabricate.checks.facts import Play, Verdict
 from fabricate.checks.gap import Spacing
-from fabricate.checks.geometry import unit_normals
 from fabricate.solid.part import Part
+from fabricate.triangles.normals import area_vectors, unit
+from fabricate.triangles.search_tree import SearchTree
 
 REACH = 1.5
 """Walls that face each other at a distance of up to this many clearances are contacts."""
@@ -91,8 +91,8 @@ def mobility(spacing: Spacing, *, clearance: float) -> Mobility:
     A play is the whole way between two stops: the sum of both directions.
     """
     met = contacts(spacing, clearance=clearance)
-    pivot = joint_pivot(met, spacing.first.part.points.mean(axis=0))
-    radius = float(np.linalg.norm(spacing.first.part.points - pivot, axis=1).max())
+    pivot = joint_pivot(met, spacing.first.points.mean(axis=0))
+    radius = float(np.linalg.norm(spacing.first.points - pivot, axis=1).max())
     rows = np.hstack([met.normals, np.cross(met.points - pivot, met.normals) / radius])
     ways = _farthest(rows, met.gaps / radius)
     ways[ways >= FREE[:, None]] = np.inf
@@ -144,11 +144,11 @@ def joint_pivot(met: Contacts, centroid: Floats) -> Floats:
 
 def _facing(own: SearchTree, other: SearchTree, distances: Floats, clearance: float) -> Contacts:
     """Return the places of `own` whose walls face a wall of `other`."""
-    triangles = own.part.triangles
+    triangles = own.triangles
     near = np.flatnonzero((distances[triangles] <= CORNER_REACH * clearance).all(axis=1))
-    points, triangle = _samples(own.part, near)
+    points, triangle = _samples(own, near)
     found = other.nearest(points)
-    normals, opposite = unit_normals(own.part, triangle), unit_normals(other.part, found.triangle)
+    normals, opposite = _normals(own, triangle), _normals(other, found.triangle)
     way = found.point - points
     gaps = np.einsum("ij,ij->i", way, normals)
     facing = (
@@ -159,12 +159,16 @@ def _facing(own: SearchTree, other: SearchTree, distances: Floats, clearance: fl
     return Contacts(points[facing], normals[facing], gaps[facing])
 
 
-def _samples(part: Part, triangles: Indices) -> tuple[Floats, Indices]:
+def _normals(tree: SearchTree, triangles: Indices) -> Floats:
+    return unit(area_vectors(tree.points, tree.triangles[triangles]))
+
+
+def _samples(tree: SearchTree, triangles: Indices) -> tuple[Floats, Indices]:
     """Return places on the given triangles, (k, 3), evenly thinned out, and the triangle of each."""
     count = len(SAMPLES) * len(triangles)
     chosen = np.arange(0, count, max(1, -(-count // MOST_SAMPLES)))
     triangle, sample = triangles[chosen // len(SAMPLES)], chosen % len(SAMPLES)
-    points = np.einsum("ki,kij->kj", SAMPLES[sample], part.points[part.triangles[triangle]])
+    points = np.einsum("ki,kij->kj", SAMPLES[sample], tree.points[tree.triangles[triangle]])
     return points, triangle
 
 

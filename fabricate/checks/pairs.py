@@ -9,13 +9,13 @@ from itertools import combinations
 from manifold3d import Manifold
 
 from fabricate.checks.check import Check
-from fabricate.checks.distance import SearchTree
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Gap
 from fabricate.checks.fit import gap_check, overlap_check, whole_check
 from fabricate.checks.gap import Spacing, smallest_gap
 from fabricate.checks.mobility import Mobility, mobility, mobility_check
 from fabricate.solid.part import Part
+from fabricate.triangles.search_tree import SearchTree
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class Solid:
     @classmethod
     def of(cls, part: Part, manifold: Manifold) -> Solid:
         """Build the search tree of a part that Manifold has taken."""
-        return cls(part, manifold, SearchTree.of(part))
+        return cls(part, manifold, SearchTree.of(part.points, part.triangles))
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,9 +10,9 @@ from scipy.sparse.csgraph import connected_components
 
 from fabricate.arrays import Floats, Indices, Mask, frozen
 from fabricate.checks.check import Check
-from fabricate.checks.geometry import area_vectors
 from fabricate.checks.wording import counted
 from fabricate.solid.part import Part
+from fabricate.triangles.normals import area_vectors
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +177,9 @@ def components_check(part: Part, labels: Indices) -> Check:
 
 def nondegenerate_check(part: Part) -> Check:
     """Check that every triangle has three different corners and an area; points at centroids."""
-    flat: Mask = (area_vectors(part) == 0.0).all(axis=1)  # repeated corners give an exact zero, too
+    flat: Mask = (area_vectors(part.points, part.triangles) == 0.0).all(
+        axis=1
+    )  # repeated corners give an exact zero, too
     code = f"{part.name}.nondegenerate"
     if not flat.any():
         return Check(code, ok=True, message=f"all {len(flat)} triangles of {part.name} have an area")

@@ -8,9 +8,9 @@ import numpy as np
 
 from fabricate.arrays import Floats, frozen
 from fabricate.checks.facts import Spread
-from fabricate.checks.geometry import area_vectors
 from fabricate.solid.part import Part
-from fabricate.surface.ray_casting import first_hits
+from fabricate.triangles.normals import area_vectors
+from fabricate.triangles.ray_casting import first_hits
 
 MOST_RAYS = 200_000
 """Of a part with more triangles, only every second, third ... one sends a ray."""
@@ -68,7 +68,7 @@ def walls(part: Part) -> Walls:
     Where the first face is not opposite, as near an edge of more than 37 degrees, there is no wall; a sharper
     edge is one that gets thin.
     """
-    vectors = area_vectors(part)
+    vectors = area_vectors(part.points, part.triangles)
     lengths = np.linalg.norm(vectors, axis=1)
     normals = vectors / np.where(lengths > 0.0, lengths, 1.0)[:, None]
     sending = np.flatnonzero(lengths > 0.0)

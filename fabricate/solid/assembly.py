@@ -18,18 +18,16 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices, frozen
 from fabricate.solid.facing import wall_gaps
+from fabricate.solid.floor import floor_drop, lowered
 from fabricate.solid.layers import Layer, flipped, layer, wall
 from fabricate.solid.part import Part
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.normals import unit
+from fabricate.triangles.normals import unit
 
 Core: TypeAlias = Literal["hollow", "yellow", "blue"]
 
 CORRECTIONS, MOST_ADDED = 3, 1.25
 """How often walls that are too near are moved apart, and by which factor at most each time."""
-
-LEAST_COSINE = 0.5
-"""Smallest cosine at folds of the inner surface that is made up for under it."""
 
 NOTHING_MISSING = 1.01
 """Clearance over measured gap from which on walls are moved apart."""
@@ -122,36 +120,38 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, core: Core)
     """Return the outer layer, the inner one and, for a core, the floor.
 
     Where walls lean or twist they are nearer to each other than their edges: there the edges are moved
-    further apart, by as much as is missing, a few times.
+    further apart, by as much as is missing, a few times; likewise a floor is lowered.
     """
     down = unit(inner - surface.points)
+    drop = floor_drop(inner, surface.triangles, down, clearance=clearance)
+    inlaid = surface.triangles[surface.yellow if core == "blue" else ~surface.yellow]
     wanted = np.full(len(surface.curve), clearance)
-    short = len(wanted) + 1
+    short = len(surface.points) + 1
     for _ in range(CORRECTIONS):
-        outer_layer, inner_layer = (layer(surface, p, down, clearance=wanted) for p in (surface.points, inner))
-        missing = clearance / np.maximum(wall_gaps(outer_layer, inner_layer, surface.curve), 1e-9)
+        levels = [surface.points, inner] + ([] if core == "hollow" else [inner + drop[:, None] * down])
+        layers = [layer(surface, points, down, clearance=wanted) for points in levels]
+        missing = clearance / np.maximum(_wall_gaps(surface, layers, core), 1e-9)
         before, short = short, int((missing > NOTHING_MISSING).sum())
+        if core != "hollow":
+            ceiling, floor = (
+                (layers[1].yellow, layers[2].blue) if core == "blue" else (layers[1].blue, layers[2].yellow)
+            )
+            deeper = lowered(drop, ceiling, floor, inlaid, clearance=clearance)
+            short += int((deeper > NOTHING_MISSING * drop).sum())
+            drop = deeper
         if not 0 < short < before:
             break
         wanted = wanted * np.clip(_widened(missing), 1.0, MOST_ADDED)
-    if core == "hollow":
-        return [outer_layer, inner_layer]
-    floor = inner + (clearance / _steepest(surface, inner, down))[:, None] * down
-    return [outer_layer, inner_layer, layer(surface, floor, down, clearance=wanted)]
+    return layers
 
 
-def _steepest(surface: CutSurface, points: Floats, down: Floats) -> Floats:
-    """Return the smallest cosine between `down` and the triangles' own way down around each point, (n,) float.
-
-    A copy moved by a distance over this keeps at least that distance from every triangle.
-    """
-    a, b, c = (points[surface.triangles[:, k]] for k in range(3))
-    facets = unit(np.cross(b - a, c - a))
-    steepest: Floats = np.ones(len(points))
-    for k in range(3):
-        corner = surface.triangles[:, k]
-        np.minimum.at(steepest, corner, -np.einsum("ij,ij->i", facets, down[corner]))
-    return np.maximum(steepest, LEAST_COSINE)
+def _wall_gaps(surface: CutSurface, layers: list[Layer], core: Core) -> Floats:
+    """Return how far apart the walls are beside each curve point; only a core's goes down to the floor."""
+    yellow, blue = (
+        [copy[surface.curve] for copy in copies]
+        for copies in ([each.yellow for each in layers], [each.blue for each in layers])
+    )
+    return wall_gaps(yellow if core != "blue" else yellow[:2], blue if core != "yellow" else blue[:2])
 
 
 def _widened(values: Floats) -> Floats:

@@ -14,7 +14,7 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.normals import unit
+from fabricate.triangles.normals import unit
 
 ROOMY = 2.0
 """A side at least this many clearances wide gives its half."""

@@ -2,36 +2,38 @@
 
 from __future__ import annotations
 
-import igl
+import itertools
+from collections.abc import Sequence
+
 import numpy as np
 
-from fabricate.arrays import Floats, Indices
-from fabricate.solid.layers import Layer, wall
+from fabricate.arrays import Floats
+from fabricate.solid.layers import wall
+from fabricate.triangles.search_tree import SearchTree
 
 DOWN_WALL = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Where edges and diagonals are measured, from the upper end to the lower one."""
 
 
-def wall_gaps(outer: Layer, inner: Layer, curve: Indices) -> Floats:
+def wall_gaps(yellow: Sequence[Floats], blue: Sequence[Floats]) -> Floats:
     """Return the smallest distance between the facing walls beside each curve point, (c,) float, mm.
 
-    Each wall is measured along the edges down it and along the diagonals of its cells, against the other wall's
-    triangles; a diagonal counts for the points at both ends of its cell.
+    `yellow` and `blue` hold each part's copies of the curve, (c, 3) each, from the outside in. Each wall is measured
+    along the edges down it and along the diagonals of its cells, against the other wall's triangles; a diagonal
+    counts for the points at both ends of its cell.
     """
-    count = len(curve)
-    cells = wall(np.arange(count), count, 0)
-    walls = [
-        np.concatenate([upper[curve], lower[curve]])
-        for upper, lower in ((outer.yellow, inner.yellow), (outer.blue, inner.blue))
-    ]
-    gaps = np.full(count, np.inf)
-    for own, other in (walls, walls[::-1]):
-        upper, lower = own[:count], own[count:]
-        down = [upper + share * (lower - upper) for share in DOWN_WALL]
-        across = [upper + share * (np.roll(lower, -1, axis=0) - upper) for share in DOWN_WALL[1:-1]]
-        tree = igl.AABB()
-        tree.init(other, cells)
-        squared = tree.squared_distance(other, cells, np.concatenate(down + across))[0]
-        distance = np.sqrt(np.asarray(squared).reshape(-1, count))
-        gaps = np.minimum.reduce([gaps, *distance, *np.roll(distance[len(down) :], 1, axis=1)])
+    gaps = np.full(len(yellow[0]), np.inf)
+    for own, other in ((yellow, blue), (blue, yellow)):
+        tree = _wall_tree(other)
+        for upper, lower in itertools.pairwise(own):
+            down = [upper + share * (lower - upper) for share in DOWN_WALL]
+            across = [upper + share * (np.roll(lower, -1, axis=0) - upper) for share in DOWN_WALL[1:-1]]
+            distance = tree.nearest(np.concatenate(down + across)).distance.reshape(-1, len(upper))
+            gaps = np.minimum.reduce([gaps, *distance, *np.roll(distance[len(down) :], 1, axis=1)])
     return gaps
+
+
+def _wall_tree(copies: Sequence[Floats]) -> SearchTree:
+    count = len(copies[0])
+    cells = [wall(np.arange(count), (k + 1) * count, k * count) for k in range(len(copies) - 1)]
+    return SearchTree.of(np.concatenate(copies), np.concatenate(cells))

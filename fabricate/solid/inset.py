@@ -12,9 +12,9 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, Mask
-from fabricate.surface.adjacency import grown
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.ray_casting import first_hits
+from fabricate.triangles.adjacency import grown
+from fabricate.triangles.ray_casting import first_hits
 
 DEPTH_SLOPE = 0.7
 """A capped depth may change by this much per mm along the surface."""
@@ -23,7 +23,7 @@ SLOPE_PASSES = 30
 RINGS, SWEEPS = 3, 3
 """How far around a fault points are relaxed, in edges, and how often in a round."""
 
-TILES, SLIDES = 1, 12
+TILES, SLIDES = 1, 36
 """How far around a fault points slide, in tiles, and how often in a round."""
 
 RETREAT = 0.4

@@ -9,7 +9,7 @@ import numpy as np
 from fabricate.arrays import Floats, Indices
 from fabricate.solid.clearance import along, clearance_shares, ray_sides
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.normals import vertex_normals
+from fabricate.triangles.normals import vertex_normals
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,8 +20,8 @@ from fabricate.errors import SolidError
 from fabricate.solid.clearance import clearance_shares, ray_sides, too_near
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
-from fabricate.surface.normals import unit
 from fabricate.surface.resolution import resolution_for
+from fabricate.triangles.normals import unit
 
 ENOUGH = 0.99
 """Share of the clearance that copies of the curve must be apart."""

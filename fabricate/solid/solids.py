@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
-from fabricate.solid.crossing import crossing_triangles
 from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.inset import SAFE_DEPTH, capped_depth, relaxed, retreated, slid
-from fabricate.surface.adjacency import neighbour_means
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.neck import tile_necks
+from fabricate.triangles.adjacency import neighbour_means
+from fabricate.triangles.crossing import crossing_triangles
 
-RETREAT_FROM, RELAX_UNTIL, ALL_ROUNDS = 12, 12, 60
-"""Rounds from which stubborn places also retreat, after which they only do, and in all; the checks report the rest."""
+RETREAT_FROM, ALL_ROUNDS, PATIENCE = 4, 60, 3
+"""Round from which stubborn places retreat, rounds in all, and how many in which only the gap is too small and does
+not get better; the checks report what is left."""
 
 CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
@@ -39,33 +41,43 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     inner, safe = _under(surface, depth), _under(surface, SAFE_DEPTH * depth)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
+    fewest, waited = len(inner) + 1, 0
     for step in range(ALL_ROUNDS):
         made = assembly(surface, inner, clearance=clearance, core=core)
-        faulty = _faults(made, clearance, moved, all_kinds=step < RETREAT_FROM)
-        if not faulty.any():
-            return made
-        mended = slid(surface, inner, faulty, means) if step < RETREAT_FROM else inner
-        if step < RELAX_UNTIL:
-            mended = relaxed(mended, faulty, means)
-        if step >= RETREAT_FROM:
-            mended = retreated(surface, mended, faulty, means, safe=safe)
+        crossing, near = _faults(made, clearance, moved, all_kinds=step < RETREAT_FROM)
+        if not (crossing | near).any():
+            break
+        if step >= RETREAT_FROM and not crossing.any():
+            fewest, waited = min(fewest, int(near.sum())), waited + 1 if near.sum() >= fewest else 0
+            if waited == PATIENCE:
+                break
+        mended = _mended(surface, inner, crossing | near, means, safe=safe, retreating=step >= RETREAT_FROM)
         moved = (mended != inner).any(axis=1)
         inner = mended
     return made
 
 
-def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> Mask:
-    """Return the faulty surface points: crossings, and near places if asked for or once nothing crosses.
+def _mended(
+    surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array, *, safe: Floats, retreating: bool
+) -> Floats:
+    if retreating:
+        return retreated(surface, inner, faulty, means, safe=safe)
+    return relaxed(slid(surface, inner, faulty, means), faulty, means)
 
-    Crossings are looked for around the points that moved; nothing counts as found to be right before
-    everything was looked at.
+
+def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> tuple[Mask, Mask]:
+    """Return the surface points where parts cross, and near places if asked for or once nothing crosses.
+
+    Both are looked for around the points that moved; nothing counts as found to be right before everything
+    was looked at.
     """
-    faulty = crossing_points(made, clearance=clearance, moved=moved)
-    if not faulty.any() and not moved.all():
-        faulty = crossing_points(made, clearance=clearance, moved=np.ones_like(moved))
-    if clearance > 0.0 and (all_kinds or not faulty.any()):
-        faulty = faulty | near_points(made, clearance=clearance)
-    return faulty
+    crossing = crossing_points(made, clearance=clearance, moved=moved)
+    near: Mask = np.zeros_like(crossing)
+    if clearance > 0.0 and (all_kinds or not crossing.any()):
+        near = near_points(made, clearance=clearance, moved=moved)
+    if not (crossing | near).any() and not moved.all():
+        return _faults(made, clearance, np.ones_like(moved), all_kinds=True)
+    return crossing, near
 
 
 def _under(surface: CutSurface, depth: Floats) -> Floats:

@@ -15,8 +15,8 @@ import numpy as np
 from fabricate.arrays import Floats, Indices
 from fabricate.duotone.catmull_clark import catmull_clark
 from fabricate.duotone.quad_mesh import QuadMesh
-from fabricate.surface.normals import unit
 from fabricate.surface.patch import PatchBasis, patch_basis
+from fabricate.triangles.normals import unit
 
 
 class Samples(NamedTuple):

@@ -12,11 +12,11 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from fabricate.arrays import Floats
-from fabricate.checks.distance import SearchTree
 from fabricate.checks.facts import Gap
 from fabricate.checks.gap import Spacing, smallest_gap
 from fabricate.checks.geometry import as_manifold
 from fabricate.solid.part import Part
+from fabricate.triangles.search_tree import SearchTree
 
 
 def part_of(mesh: trimesh.Trimesh, *, shift: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Part:
@@ -27,8 +27,14 @@ def moved(part: Part, shift: tuple[float, float, float]) -> Part:
     return Part(part.name, part.points + np.array(shift), part.triangles)
 
 
+def tree_of(part: Part) -> SearchTree:
+    return SearchTree.of(part.points, part.triangles)
+
+
 def gap_between(first: Part, second: Part, *, clearance: float | None) -> Gap:
-    spacing = Spacing.between(SearchTree.of(first), SearchTree.of(second))
+    spacing = Spacing.between(
+        SearchTree.of(first.points, first.triangles), SearchTree.of(second.points, second.triangles)
+    )
     return smallest_gap(spacing, as_manifold(first), as_manifold(second), clearance=clearance)
 
 
@@ -152,13 +158,15 @@ def test_tetrahedra_agree_with_a_minimiser(first: Floats, second: Floats, extra:
     gap = gap_between(*parts, clearance=expected)
     assert gap.min == pytest.approx(expected, rel=1e-4)
     assert gap.at is not None
-    near = [float(SearchTree.of(part).nearest(np.array([gap.at])).distance[0]) for part in parts]
+    near = [float(tree_of(part).nearest(np.array([gap.at])).distance[0]) for part in parts]
     assert sum(near) <= 1.02 * expected
 
 
 def test_vertex_distances_are_measured_both_ways() -> None:
     small, large = part_of(trimesh.creation.box(), shift=(0, 0, 3)), part_of(trimesh.creation.box((9, 9, 2)))
-    spacing = Spacing.between(SearchTree.of(small), SearchTree.of(large))
+    spacing = Spacing.between(
+        SearchTree.of(small.points, small.triangles), SearchTree.of(large.points, large.triangles)
+    )
     assert spacing.to_second.min() == pytest.approx(1.5)
     assert spacing.to_first.min() > 4.0
     assert gap_between(small, large, clearance=2.0).min == pytest.approx(1.5)

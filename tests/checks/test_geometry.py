@@ -18,8 +18,8 @@ from fabricate.checks.geometry import (
     triangle_areas,
     volume_check,
 )
-from fabricate.solid.crossing import crossing_triangles
 from fabricate.solid.part import Part
+from fabricate.triangles.crossing import crossing_triangles
 
 lengths = st.floats(0.5, 50.0)
 shifts = st.tuples(*3 * [st.floats(-100.0, 100.0)])

@@ -11,11 +11,11 @@ from manifold3d import Manifold
 from scipy.spatial.transform import Rotation
 
 from fabricate.arrays import Floats
-from fabricate.checks.distance import SearchTree
 from fabricate.checks.facts import Play
 from fabricate.checks.gap import Spacing
 from fabricate.checks.mobility import Mobility, contacts, joint_pivot, mobility, mobility_check
 from fabricate.solid.part import Part
+from fabricate.triangles.search_tree import SearchTree
 
 GAP = 0.3
 
@@ -26,7 +26,7 @@ def part_of(manifold: Manifold) -> Part:
 
 
 def spacing(first: Part, second: Part) -> Spacing:
-    return Spacing.between(SearchTree.of(first), SearchTree.of(second))
+    return Spacing.between(SearchTree.of(first.points, first.triangles), SearchTree.of(second.points, second.triangles))
 
 
 def judged(first: Part, second: Part) -> Mobility:

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 import trimesh
 
-from fabricate.checks.distance import SearchTree
+from fabricate.arrays import Floats, Indices
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.geometry import as_manifold
 from fabricate.checks.pairs import Solid, fit
 from fabricate.solid.part import Part
+from fabricate.triangles.search_tree import SearchTree
 
 
 def box(name: str, x: float) -> Part:
@@ -26,14 +27,14 @@ def test_each_tree_is_built_once(monkeypatch: pytest.MonkeyPatch) -> None:
     built = []
     original = SearchTree.of
 
-    def counted(part: Part) -> SearchTree:
-        built.append(part.name)
-        return original(part)
+    def counted(points: Floats, triangles: Indices) -> SearchTree:
+        built.append(float(points[:, 0].mean()))
+        return original(points, triangles)
 
     monkeypatch.setattr(SearchTree, "of", counted)
     parts = [box(name, 1.3 * k) for k, name in enumerate("abc")]
     made = fit(parts, solids(*parts), Expectations(clearance=0.3))
-    assert built == ["a", "b", "c"]
+    assert built == pytest.approx([0.0, 1.3, 2.6])
     assert [check.code for check in made.checks if check.ok] == [
         "fit.a-b.overlap", "fit.a-b.gap", "fit.a-c.overlap", "fit.a-c.gap", "fit.b-c.overlap", "fit.b-c.gap",
     ]  # fmt: skip

@@ -10,7 +10,7 @@ import pytest
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Assembly, assembly
-from fabricate.solid.faults import crossing_points, distances, near_points
+from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -81,20 +81,16 @@ def test_an_inner_wall_moved_over_is_near(surface: CutSurface) -> None:
     yellow, blue = count + number, 3 * count + number
     points = made.points.copy()
     points[yellow] = 0.2 * points[yellow] + 0.8 * points[blue]
-    found = near_points(replace(made, points=points), clearance=CLEARANCE)
+    found = near_points(replace(made, points=points), clearance=CLEARANCE, moved=everywhere(surface))
     assert found[number]
     assert not found[np.linalg.norm(surface.points - surface.points[number], axis=1) > 10.0].any()
 
 
 def test_what_is_twice_as_far_as_asked_is_not_near(surface: CutSurface) -> None:
-    assert not near_points(built(surface, CLEARANCE), clearance=0.5 * CLEARANCE).any()
+    assert not near_points(built(surface, CLEARANCE), clearance=0.5 * CLEARANCE, moved=everywhere(surface)).any()
 
 
 def test_what_is_half_as_far_as_asked_is(surface: CutSurface) -> None:
-    assert near_points(built(surface, CLEARANCE), clearance=2.0 * CLEARANCE)[surface.curve].all()
-
-
-def test_distances_are_those_to_a_triangle() -> None:
-    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
-    queries = np.array([[0.2, 0.2, 3], [2, 0, 0], [-3, -4, 0], [0.1, 0.1, 0]])
-    assert distances(queries, points, np.array([[0, 1, 2]])) == pytest.approx([3, 1, 5, 0])
+    assert near_points(built(surface, CLEARANCE), clearance=2.0 * CLEARANCE, moved=everywhere(surface))[
+        surface.curve
+    ].all()

@@ -10,9 +10,9 @@ from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
 from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, relaxed, retreated, slid
 from fabricate.solid.settling import fitted_cut
-from fabricate.surface.adjacency import grown, neighbour_means
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
+from fabricate.triangles.adjacency import grown, neighbour_means
 
 DEPTH = 2.0
 

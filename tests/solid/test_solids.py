@@ -23,12 +23,12 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Assembly, Core
-from fabricate.solid.crossing import crossing_triangles
 from fabricate.solid.part import Part
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
+from fabricate.triangles.crossing import crossing_triangles
 
 THICKNESS = 2.0
 

@@ -1,4 +1,4 @@
-"""Distances to the surface of a part, with its search tree built once."""
+"""Nearest places on a triangle mesh, with its search tree built once (libigl)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import igl
 import numpy as np
 
 from fabricate.arrays import Floats, Indices
-from fabricate.solid.part import Part
 
 
 class Nearest(NamedTuple):
@@ -32,21 +31,23 @@ class Nearest(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SearchTree:
-    """A part, and the tree in which its triangles are looked up by place."""
+    """Triangles, (m, 3) int, on points, (n, 3) float mm, and the tree in which they are looked up by place."""
 
-    part: Part
+    points: Floats
+    triangles: Indices
     tree: igl.AABB
 
     @classmethod
-    def of(cls, part: Part) -> SearchTree:
-        """Build the tree of a part that has triangles."""
+    def of(cls, points: Floats, triangles: Indices) -> SearchTree:
+        """Build the tree of at least one triangle."""
+        points, triangles = np.ascontiguousarray(points), np.ascontiguousarray(triangles)
         tree = igl.AABB()
-        tree.init(part.points, part.triangles)
-        return cls(part, tree)
+        tree.init(points, triangles)
+        return cls(points, triangles, tree)
 
     def nearest(self, queries: Floats) -> Nearest:
-        """Return the nearest place on the part to each of the points `queries`, (q, 3), mm."""
+        """Return the nearest place on the mesh to each of the points `queries`, (q, 3), mm."""
         squared, triangle, point = self.tree.squared_distance(
-            self.part.points, self.part.triangles, np.ascontiguousarray(queries)
+            self.points, self.triangles, np.ascontiguousarray(queries)
         )
         return Nearest(np.sqrt(squared).reshape(-1), np.reshape(triangle, -1), np.reshape(point, (-1, 3)))

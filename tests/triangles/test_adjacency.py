@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import directed_edges, hull, on_sphere, seeds, tetrahedron
 
-from fabricate.surface.adjacency import grown, neighbour_means
+from fabricate.triangles.adjacency import grown, neighbour_means
 
 
 @st.composite

@@ -10,16 +10,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from fabricate.arrays import Floats
-from fabricate.checks.distance import SearchTree
-from fabricate.solid.part import Part
+from fabricate.arrays import Floats, Indices
+from fabricate.triangles.search_tree import SearchTree
 
 queries = arrays(np.float64, st.tuples(st.integers(1, 20), st.just(3)), elements=st.floats(-5.0, 5.0))
 
 
-def box() -> Part:
+def box() -> tuple[Floats, Indices]:
     mesh = trimesh.creation.box((2, 2, 2))
-    return Part("red", mesh.vertices, mesh.faces)
+    return np.array(mesh.vertices), np.array(mesh.faces)
 
 
 def distance_to_box(points: Floats) -> Floats:
@@ -32,7 +31,7 @@ def distance_to_box(points: Floats) -> Floats:
 
 @given(queries)
 def test_distance_to_a_box(points: Floats) -> None:
-    found = SearchTree.of(box()).nearest(points)
+    found = SearchTree.of(*box()).nearest(points)
     assert found.distance == pytest.approx(distance_to_box(points), abs=1e-9)
     assert found.distance == pytest.approx(np.linalg.norm(points - found.point, axis=1), abs=1e-9)
     assert found.distance.shape == found.triangle.shape == (len(points),)
@@ -41,10 +40,10 @@ def test_distance_to_a_box(points: Floats) -> None:
 
 def test_the_nearest_triangle_holds_the_nearest_point() -> None:
     mesh = trimesh.creation.icosphere(subdivisions=2, radius=10)
-    part = Part("red", mesh.vertices, mesh.faces)
+    vertices, triangles = np.array(mesh.vertices), np.array(mesh.faces)
     points = np.random.default_rng(5).uniform(-15, 15, (50, 3))
-    found = SearchTree.of(part).nearest(points)
-    corners = part.points[part.triangles[found.triangle]]
+    found = SearchTree.of(vertices, triangles).nearest(points)
+    corners = vertices[triangles[found.triangle]]
     own = [
         igl.point_simplex_squared_distance(point, three, np.array([[0, 1, 2]]), 0)[0]
         for point, three in zip(points, corners, strict=True)
@@ -53,4 +52,4 @@ def test_the_nearest_triangle_holds_the_nearest_point() -> None:
 
 
 def test_no_queries_no_answers() -> None:
-    assert len(SearchTree.of(box()).nearest(np.zeros((0, 3))).distance) == 0
+    assert len(SearchTree.of(*box()).nearest(np.zeros((0, 3))).distance) == 0

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from polyhedra import seeds
 
 from fabricate.arrays import Mask
-from fabricate.solid.crossing import crossing_triangles, triangles_near
+from fabricate.triangles.crossing import crossing_triangles, triangles_near
 
 FLAT = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], dtype=float)
 UPRIGHT = np.array([[0, -0.2, -1], [0.1, -0.2, 1], [0, 0.2, 1]], dtype=float)

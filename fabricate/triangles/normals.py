@@ -1,4 +1,4 @@
-"""Unit normals of a triangle mesh at its points."""
+"""Normals of a triangle mesh: of its triangles, and at its points."""
 
 from __future__ import annotations
 
@@ -7,10 +7,16 @@ import numpy as np
 from fabricate.arrays import Floats, Indices
 
 
+def area_vectors(points: Floats, triangles: Indices) -> Floats:
+    """Return for each triangle its normal as long as twice its area, (m, 3) float, mm2."""
+    first, second, third = (points[triangles[:, k]] for k in range(3))
+    vectors: Floats = np.cross(second - first, third - first)
+    return vectors
+
+
 def vertex_normals(points: Floats, triangles: Indices) -> Floats:
     """Return area-weighted unit normals, (n, 3) float."""
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    facet = np.cross(b - a, c - a)
+    facet = area_vectors(points, triangles)
     normals = np.zeros_like(points)
     for axis in range(3):
         normals[:, axis] = sum(np.bincount(triangles[:, k], facet[:, axis], minlength=len(points)) for k in range(3))

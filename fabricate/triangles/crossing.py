@@ -21,15 +21,15 @@ def crossing_triangles(points: Floats, triangles: Indices) -> Indices:
     return pairs
 
 
-def triangles_near(points: Floats, triangles: Indices, moved: Mask) -> Indices:
-    """Return the numbers of all triangles that could cross one with a moved corner, (k,) int; a safe superset.
+def triangles_near(points: Floats, triangles: Indices, moved: Mask, *, reach: float = 0.0) -> Indices:
+    """Return the numbers of all triangles within `reach`, mm, of one with a moved corner, (k,) int; a safe superset.
 
-    Triangles that meet have centroids within two thirds of the sum of their longest edges, so both lie in the
-    same or in neighbouring cells of a grid that is 4/3 of the longest edge wide.
+    Triangles that near have centroids within two thirds of the sum of their longest edges and the reach, so both
+    lie in the same or in neighbouring cells of a grid that is 4/3 of the longest edge and the reach wide.
     """
     corners = points[triangles]
     longest = max(float(np.linalg.norm(corners[:, k] - corners[:, k - 1], axis=1).max()) for k in range(3))
-    cells = np.floor((corners.mean(axis=1) - points.min(axis=0)) / (4.0 / 3.0 * longest)).astype(np.int64) + 1
+    cells = np.floor((corners.mean(axis=1) - points.min(axis=0)) / (4.0 / 3.0 * longest + reach)).astype(np.int64) + 1
     shape = cells.max(axis=0) + 2
     occupied = np.zeros(shape, dtype=bool)
     occupied[tuple(cells[moved[triangles].any(axis=1)].T)] = True

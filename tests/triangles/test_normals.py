@@ -9,7 +9,7 @@ from polyhedra import hull, octahedron, on_sphere, seeds
 
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import geodesic_sphere
-from fabricate.surface.normals import unit, vertex_normals
+from fabricate.triangles.normals import unit, vertex_normals
 
 
 @st.composite

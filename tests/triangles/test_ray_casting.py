@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from polyhedra import hull, on_sphere, seeds
 
 from fabricate.mesh.sphere import geodesic_sphere
-from fabricate.surface.ray_casting import first_hits
+from fabricate.triangles.ray_casting import first_hits
 
 SQUARE = np.array([[0.0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]])
 HALVES = np.array([[0, 1, 2], [0, 2, 3]])

@@ -1,0 +1,1 @@
+"""Triangle meshes of any kind: rays, nearest places, exact crossings, normals, neighbourhoods."""
