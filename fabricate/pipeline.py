@@ -20,7 +20,7 @@ from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.source import source_mesh
 from fabricate.output.files import write_whole
-from fabricate.output.folder import complete_folder
+from fabricate.output.folder import checked_place, complete_folder
 from fabricate.output.sculpture import write_sculpture
 from fabricate.process import PROCESSES
 from fabricate.solid.settling import fitted_cut
@@ -41,6 +41,7 @@ def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]
     FabricateError
         If the config, the mesh or the place to write is wrong; then nothing is written.
     """
+    checked_place(out / name)
     watch = _Stopwatch(progress)
     pattern, solid = config.pattern, config.solid
 

@@ -13,6 +13,9 @@ from fabricate.errors import PatternError
 from fabricate.mesh.half_edges import HalfEdges, half_edges
 from fabricate.mesh.polygon_mesh import PolygonMesh
 
+NAMED = 12
+"""Of a longer odd cycle a message names only as many points."""
+
 
 @dataclass(frozen=True, eq=False)
 class QuadMesh:
@@ -104,7 +107,8 @@ def _colours(quads: Indices, tail: Indices, head: Indices, count: int) -> Mask:
     components, labels = connected_components(diagonals, directed=False)
     if components == 1:
         cycle = _odd_cycle(tail, head, count)
-        names = " - ".join(str(point) for point in [*cycle, cycle[0]])
+        named = [*cycle, cycle[0]] if len(cycle) <= NAMED else [*cycle[: NAMED - 1], "...", cycle[-1], cycle[0]]
+        names = " - ".join(str(point) for point in named)
         raise PatternError(
             f"the quads cannot be coloured in two colours: points {names} form an odd cycle of "
             f"{len(cycle)} edges; use levels = 1 or more"

@@ -10,21 +10,24 @@ from pathlib import Path
 from fabricate.errors import OutputError
 from fabricate.output.files import beside, output_error
 
+MARKER = "report.json"
+"""The file that every folder of results has, and that tells it from other folders."""
+
 
 @contextmanager
 def complete_folder(destination: Path) -> Iterator[Path]:
     """Give a hidden folder to write into, and rename it to `destination` when all went well.
 
-    A folder that is there already is replaced, with everything in it, and only then: it is moved
+    A folder of results that is there already is replaced, with everything in it, and only then: it is moved
     aside, the new one takes its place, the old one is deleted. If the block raises,
     or the new folder can't take its place, the old one stays as it was, and nothing else remains.
 
     Raises
     ------
     OutputError
-        If the place can't be written to, or `destination` is a file.
+        If the place can't be written to, or `destination` is a file or a folder of other things.
     """
-    place = _checked_place(destination)
+    place = checked_place(destination)
     made = [folder for folder in place.parents if not folder.exists()]
     temporary = beside(place, "new")
     try:
@@ -39,11 +42,18 @@ def complete_folder(destination: Path) -> Iterator[Path]:
         _delete(replaced, destination)
 
 
-def _checked_place(destination: Path) -> Path:
-    """Return the absolute path, links followed, so that renames stay on one disk."""
+def checked_place(destination: Path) -> Path:
+    """Return the absolute path of a folder to be, links followed, so that renames stay on one disk.
+
+    Raises
+    ------
+    OutputError
+        If `destination` is a file, or a folder that holds other things than results.
+    """
     try:
         place = destination.resolve()
         free = bool(place.name) and (place.is_dir() or not place.exists())
+        foreign = free and place.is_dir() and any(place.iterdir()) and not (place / MARKER).exists()
     except OSError as reason:
         raise output_error(destination, reason) from reason
     except RuntimeError as reason:  # a ring of links, before Python 3.13
@@ -51,6 +61,11 @@ def _checked_place(destination: Path) -> Path:
     if not free:
         what = "a file" if place.name else "a whole disk"
         raise OutputError(f"cannot write the folder {destination}: it is {what}; choose another name")
+    if foreign:
+        raise OutputError(
+            f"cannot replace the folder {destination}: it holds other things than results, for it has no {MARKER}; "
+            "choose another name, or empty it"
+        )
     return place
 
 

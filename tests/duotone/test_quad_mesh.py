@@ -95,6 +95,15 @@ def test_odd_torus_is_an_error_that_names_an_odd_cycle(counts: tuple[int, int], 
     assert "\n" not in message
 
 
+def test_of_a_long_odd_cycle_only_some_points_are_named() -> None:
+    mesh = torus(around=301, across=302, tube=0.3)
+    with pytest.raises(
+        PatternError, match=r"points [\d -]+ \.\.\. - \d+ - \d+ form an odd cycle of \d{3} edges"
+    ) as caught:
+        two_coloured(mesh)
+    assert len(str(caught.value)) < 300
+
+
 @pytest.mark.parametrize(
     ("mesh", "others", "first", "corners"),
     [(tetrahedron(), 4, 0, 3), (dodecahedron(), 12, 0, 5)],

@@ -8,17 +8,18 @@ from pathlib import Path
 import pytest
 
 from fabricate.errors import OutputError
-from fabricate.output.folder import complete_folder
+from fabricate.output.folder import MARKER, complete_folder
 
 
 def make(destination: Path, **files: str) -> None:
     with complete_folder(destination) as folder:
+        (folder / MARKER).touch()
         for name, text in files.items():
             (folder / name).write_text(text)
 
 
 def found(folder: Path) -> dict[str, str]:
-    return {path.name: path.read_text() for path in folder.iterdir()}
+    return {path.name: path.read_text() for path in folder.iterdir() if path.name != MARKER}
 
 
 def test_the_folder_appears_only_at_the_end(tmp_path: Path) -> None:
@@ -154,3 +155,20 @@ def test_the_folder_may_be_used_by_others_as_any_new_folder(tmp_path: Path) -> N
     (tmp_path / "plain").mkdir()
     make(tmp_path / "first", a="1")
     assert (tmp_path / "first").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
+@pytest.mark.parametrize("holding", ["thesis.tex", "a/b"])
+def test_a_folder_of_other_things_is_not_replaced(tmp_path: Path, holding: str) -> None:
+    precious = tmp_path / "first" / holding
+    precious.parent.mkdir(parents=True)
+    precious.write_text("years of work")
+    with pytest.raises(OutputError, match=r"holds other things than results.*choose another name"):
+        make(tmp_path / "first", a="new")
+    assert precious.read_text() == "years of work"
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_an_empty_folder_is_free(tmp_path: Path) -> None:
+    (tmp_path / "first").mkdir()
+    make(tmp_path / "first", a="new")
+    assert found(tmp_path / "first") == {"a": "new"}
