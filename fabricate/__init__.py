@@ -8,7 +8,7 @@ from fabricate.checks.measured import expectations
 from fabricate.duotone.certificate import certified
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.errors import FabricateError
-from fabricate.mesh.source import read_closed
+from fabricate.formats.source import read_closed
 from fabricate.mesh.torus import torus
 from fabricate.output.sculpture import write_sculpture
 from fabricate.solid.settling import fitted_cut

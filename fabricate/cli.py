@@ -23,6 +23,8 @@ from fabricate.errors import ConfigError, FabricateError
 from fabricate.output.files import write_whole
 from fabricate.output.new_config import write_new_config
 from fabricate.pipeline import check as check_parts
+from fabricate.pipeline import inspect as inspect_mesh
+from fabricate.prepare.diagnosis_text import diagnosis_data, diagnosis_text
 from fabricate.units import parse_length
 
 app = typer.Typer(
@@ -114,6 +116,21 @@ def check(
 
 
 @app.command()
+def inspect(
+    path: Annotated[Path, typer.Argument(metavar="FILE", help="A mesh: OBJ, OFF, PLY, STL, 3MF or GLB.")],
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of lines.")] = False,
+) -> None:
+    """Say what a mesh is, what is wrong with it, and what `run` would do about it."""
+    found = inspect_mesh(path)
+    if as_json:
+        content = {**diagnosis_data(found.diagnosis), "usable": found.usable, "plan": found.plan}
+        typer.echo(json.dumps(content, indent=2))
+    else:
+        typer.echo("\n".join([diagnosis_text(found.diagnosis), *found.plan]))
+    raise typer.Exit(0 if found.usable else 1)
+
+
+@app.command()
 def new(
     name: Annotated[str, typer.Argument(help="Name of the sculpture; the file becomes NAME.toml.")],
 ) -> None:
@@ -181,7 +198,7 @@ def _listener(out: Path) -> Iterator[Listener]:
 def _check_line(check: Check) -> str:
     verdict = "skipped" if check.skipped else "passed" if check.ok else "FAILED"
     first = "".join(f" at ({x:.3f}, {y:.3f}, {z:.3f}) mm" for x, y, z in check.where[:1])
-    return f"{verdict:<7} {check.code}: {check.message}{first}"
+    return f"{verdict:<7} {check.code}: {check.message}{'' if ' at (' in check.message else first}"
 
 
 def _clearance(text: str) -> float:

@@ -17,6 +17,10 @@ class MeshError(FabricateError, ValueError):
     """A mesh is not one closed, orientable 2-manifold with volume."""
 
 
+class PrepareError(FabricateError, ValueError):
+    """A mesh cannot be repaired or remeshed as asked."""
+
+
 class PatternError(FabricateError, ValueError):
     """A duotone pattern cannot be made on this mesh with these options."""
 

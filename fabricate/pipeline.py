@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from time import perf_counter
@@ -12,54 +13,85 @@ from fabricate.checks.judge import judged_parts, read_part
 from fabricate.checks.measured import expectations, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Report, report_json
-from fabricate.config import Config, SphereConfig, config_sha256, resolved_toml
-from fabricate.duotone.catmull_clark import catmull_clark, subdivided
+from fabricate.config import Config, FileConfig, SphereConfig, config_sha256, moved_config, resolved_toml
 from fabricate.duotone.certificate import certified
-from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
+from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.spanning_tree import grown_duotone
+from fabricate.errors import MeshError
+from fabricate.formats.limits import ReadLimits
+from fabricate.formats.reading import read_mesh
+from fabricate.formats.source import source_mesh
 from fabricate.mesh.polygon_mesh import PolygonMesh
-from fabricate.mesh.source import source_mesh
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
 from fabricate.output.sculpture import write_sculpture
+from fabricate.prepare.density import finest_tile
+from fabricate.prepare.inspection import Inspection, inspected
+from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.process import PROCESSES
+from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
-from fabricate.surface.roundness import polygons, rounded
-from fabricate.surface.sizing import sized, tiled
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.tiling import Tiling, input_surface, new_tiling, own_tiling, smooth_surface, too_fine
 
 LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf")
 
 
-def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]) -> Report:
+def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]) -> tuple[Report, ...]:
     """Make the sculpture of a config in the folder `out / name`, and return what was proved of it.
 
+    With `prepare.components = "each"` every body is a sculpture of its own, in `out / name-1` and so on.
     `progress` is called with each stage's name as it begins.
 
     Raises
     ------
     FabricateError
-        If the config, the mesh or the place to write is wrong; then nothing is written.
+        If the config, the mesh or the place to write is wrong; then nothing is written, or, with several
+        bodies, nothing of the one that it is about.
     """
     checked_place(out / name)
     watch = _Stopwatch(progress)
-    pattern, solid = config.pattern, config.solid
-
     watch.begin("read")
-    mesh = source_mesh(config.source)
+    prepare = config.prepare
+    limits = ReadLimits(max_bytes=prepare.max_file_mb << 20, max_faces=prepare.max_faces)
+    mesh = source_mesh(config.source, limits=limits)
+    watch.begin("prepare")
+    bodies = _bodies(mesh, config)
+    if prepare.components != "each":
+        return (_sculpture(bodies[0], config, name=name, out=out, watch=watch),)
+    return tuple(
+        _sculpture(body, config, name=f"{name}-{number}", out=out, watch=watch.copy())
+        for number, body in enumerate(bodies, start=1)
+    )
+
+
+def _bodies(mesh: PolygonMesh, config: Config) -> tuple[Prepared, ...]:
+    prepare = config.prepare
+    try:
+        return prepared(mesh, repair=prepare.repair, components=prepare.components, crease=prepare.crease)
+    except MeshError as error:
+        if isinstance(config.source, FileConfig):
+            raise MeshError(f"{config.source.file}: {error}") from None
+        raise
+
+
+def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _Stopwatch) -> Report:
+    """Make the two parts of one body."""
+    pattern, solid = config.pattern, config.solid
     watch.begin("quads")
-    quads = _quads(mesh, config)
+    tiling = _tiling(body.mesh, config, watch.tell)
     watch.begin("duotone")
-    duotone = grown_duotone(quads, tree=pattern.tree, seed=pattern.seed)
+    duotone = grown_duotone(tiling.quads, tree=pattern.tree, seed=pattern.seed)
     certificate = certified(duotone)
     watch.begin("cut")
-    surface = fitted_cut(duotone, arc=pattern.arc, tolerance=solid.tolerance, clearance=solid.clearance)
+    surface = _surface(duotone, tiling, config)
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
     with complete_folder(out / name) as folder:
         watch.begin("files")
         paths = write_sculpture(folder, made.parts, surface.points[surface.curve], name=name)
-        write_whole(folder / "config.toml", resolved_toml(config).encode())
+        write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
         wanted = expectations(
             surface,
@@ -74,7 +106,7 @@ def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]
             name=name,
             config_sha256=config_sha256(config),
             versions=_versions(),
-            mesh=mesh_facts(mesh, surface),
+            mesh=mesh_facts(body, tiling, surface),
             pattern=pattern_facts(duotone, certificate, surface),
             parts=judged.parts,
             fit=judged.fit,
@@ -83,6 +115,17 @@ def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]
         )
         write_whole(folder / "report.json", report_json(report).encode())
     return report
+
+
+def inspect(path: Path) -> Inspection:
+    """Read a mesh file and say what it is, and what `run` would do about it.
+
+    Raises
+    ------
+    ReadError
+        If the file is missing, damaged or no mesh.
+    """
+    return inspected(read_mesh(path))
 
 
 def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
@@ -106,17 +149,39 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
     )
 
 
-def _quads(mesh: PolygonMesh, config: Config) -> QuadMesh:
-    """Return the sized quads of a mesh; of a sphere, moved after the first step so that its limit is round."""
-    levels = config.pattern.levels
-    steps = levels or 0
-    if isinstance(config.source, SphereConfig) and levels != 0:
-        mesh = polygons(rounded(catmull_clark(mesh).mesh))
-        steps -= 1
-    mesh = sized(mesh, size=config.source.size)
-    if config.pattern.tile_size is not None:
-        return tiled(mesh, tile_size=config.pattern.tile_size)
-    return subdivided(mesh, levels=steps) if steps else two_coloured(mesh)
+def _tiling(mesh: PolygonMesh, config: Config, progress: Callable[[str], None]) -> Tiling:
+    """Return the tiles of a body: of new cells where they are asked for, or a file's own are too fine."""
+    source, pattern, prepare = config.source, config.pattern, config.prepare
+    size, from_file, round_limit = source.size, isinstance(source, FileConfig), isinstance(source, SphereConfig)
+    tile_size, limit = _tile_size(config)
+    cells = prepare.cells
+    if cells == "auto" and from_file and tile_size is not None and too_fine(mesh, size=size, tile_size=tile_size):
+        cells = "quads"
+    if cells == "auto" or cells == "as-is" or tile_size is None:  # one by one, so that types narrow
+        made = own_tiling(mesh, size=size, tile_size=tile_size, levels=pattern.levels, round_limit=round_limit)
+    else:
+        whole = (
+            input_surface(mesh, size=size) if from_file else smooth_surface(mesh, size=size, round_limit=round_limit)
+        )
+        made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=prepare.seed, progress=progress)
+    return replace(made, notes=limit + made.notes)
+
+
+def _tile_size(config: Config) -> tuple[float | None, tuple[str, ...]]:
+    """Return the tile size in mm, None if levels are asked for, and the sentence that says what bound it."""
+    if config.pattern.tile_size != "auto":
+        return config.pattern.tile_size, ()
+    feature = PROCESSES[config.process.name].feature_min
+    found = finest_tile(feature, config.solid.clearance, extent=config.source.size, arc=config.pattern.arc)
+    return found.tile_size, (found.limit,)
+
+
+def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:
+    """Return the cut surface, with the detail of the input where new cells were made for it."""
+    arc, tolerance, clearance = config.pattern.arc, config.solid.tolerance, config.solid.clearance
+    if tiling.surface is None or config.prepare.detail == "smooth":
+        return fitted_cut(duotone, arc=arc, tolerance=tolerance, clearance=clearance)
+    return detailed_cut(duotone, tiling.surface, arc=arc, tolerance=tolerance, clearance=clearance)
 
 
 def _versions() -> dict[str, str]:
@@ -133,6 +198,16 @@ class _Stopwatch:
     def begin(self, stage: str) -> None:
         self._began.append((stage, perf_counter()))
         self._progress(stage)
+
+    def tell(self, step: str) -> None:
+        """Tell of a step within a stage."""
+        self._progress(step)
+
+    def copy(self) -> _Stopwatch:
+        """Return another watch that has run as long."""
+        other = _Stopwatch(self._progress)
+        other._began = list(self._began)
+        return other
 
     def ended(self) -> dict[str, float]:
         """Return the seconds of every stage, the last one ending now."""

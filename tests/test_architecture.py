@@ -17,6 +17,8 @@ ROWS = [
     {"errors", "units", "arrays", "process", "config"},
     {"triangles"},
     {"mesh"},
+    {"formats"},
+    {"prepare"},
     {"duotone"},
     {"surface"},
     {"solid"},
@@ -32,6 +34,8 @@ ROWS = [
 
 OWNERS = {
     "manifold3d": ("solid", "checks"),
+    "pymeshlab": ("prepare",),
+    "pyquadriflow": ("prepare",),
     "typer": ("cli",),
     "rich": ("cli",),
     "PIL": ("picture", "output.png"),
@@ -108,6 +112,8 @@ def test_rows_import_only_rows_above(name: str) -> None:
         ("output.stl", "from PIL import Image"),
         ("solid.part", "import viser"),
         ("mesh.cube", "import fabricate"),
+        ("formats.reading", "from fabricate.prepare.repair import repaired"),
+        ("surface.cut", "def f():\n    import pymeshlab"),
     ],
 )
 def test_an_import_from_below_is_found(name: str, source: str) -> None:
@@ -119,6 +125,7 @@ def test_an_import_from_below_is_found(name: str, source: str) -> None:
     [
         ("cli", "import typer\nfrom rich.console import Console\nfrom fabricate.batch.workers import run"),
         ("output.png", "from PIL import Image"),
+        ("prepare.wrap", "import pymeshlab\nfrom fabricate.mesh.closed import genus"),
         ("picture.preview", "from PIL import Image\nfrom fabricate.picture.scene import Scene"),
         ("checks.fit", "import manifold3d\nfrom fabricate.solid.part import Part"),
         (

@@ -67,16 +67,16 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, object]]:
     """Let every run pass without making anything; returns what the runs were asked."""
     asked: list[dict[str, object]] = []
 
-    def run(config: object, **options: object) -> FakeReport:
+    def run(config: object, **options: object) -> tuple[FakeReport, ...]:
         asked.append({"config": config, **options})
-        return FakeReport()
+        return (FakeReport(),)
 
     monkeypatch.setattr(workers, "run", run)
     return asked
 
 
 def fail(error: BaseException) -> Callable[..., FakeReport]:
-    def run(*_: object, **__: object) -> FakeReport:
+    def run(*_: object, **__: object) -> tuple[FakeReport, ...]:
         raise error
 
     return run
@@ -95,7 +95,7 @@ def test_options_reach_the_run(call: Call, made: list[dict[str, object]]) -> Non
 
 
 def test_a_failed_check_is_status_1_and_says_which(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workers, "run", lambda *_, **__: FAILED)
+    monkeypatch.setattr(workers, "run", lambda *_, **__: (FAILED,))
     said = call("run", "good.toml")
     assert (said.status, said.err) == (1, "")
     assert said.out == f"good: FAILED: gap is 0.1 mm -> {Path('outputs/good')}\n"
@@ -138,10 +138,10 @@ def test_the_worst_of_several_counts_and_all_are_made(call: Call, made: list[dic
 
 
 def test_stages_are_shown_on_a_terminal_only(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    def run(*_: object, progress: Callable[[str], None], **__: object) -> FakeReport:
+    def run(*_: object, progress: Callable[[str], None], **__: object) -> tuple[FakeReport, ...]:
         progress("tessellate")
         progress("thicken")
-        return FakeReport()
+        return (FakeReport(),)
 
     monkeypatch.setattr(workers, "run", run)
     assert "thicken" not in call("run", "good.toml").out
@@ -278,7 +278,7 @@ def test_new_refuses_bad_names(call: Call, name: str) -> None:
 def test_schema_prints_json(call: Call) -> None:
     said = call("schema")
     assert said.status == 0
-    assert set(json.loads(said.out)["properties"]) == {"source", "pattern", "solid", "process"}
+    assert set(json.loads(said.out)["properties"]) == {"source", "prepare", "pattern", "solid", "process"}
 
 
 def test_version(call: Call) -> None:

@@ -16,8 +16,8 @@ from fabricate.config import (
     config_sha256,
     load_config,
 )
+from fabricate.formats.source import source_mesh
 from fabricate.mesh.closed import genus
-from fabricate.mesh.source import source_mesh
 from fabricate.process import PROCESSES
 
 PATHS = sorted((Path(__file__).parents[1] / "configs").glob("*.toml"))

@@ -55,7 +55,8 @@ def silent(_: str) -> None:
 
 
 def run(path: Path, out: Path, *overrides: str) -> Report:
-    return pipeline.run(load_config(path, overrides), name=path.stem, out=out, progress=silent)
+    (report,) = pipeline.run(load_config(path, overrides), name=path.stem, out=out, progress=silent)
+    return report
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +94,7 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
         *("name", "ok", "config_sha256", "versions", "mesh"),
         *("pattern", "parts", "fit", "checks", "seconds"),
     }
-    assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm"}
+    assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm"}
     assert set(report["pattern"]) == {
         *("tiles", "tile_size_mm", "curves", "regions", "curve_length_mm"),
         *("area_share", "handles", "neck_mm"),
@@ -234,6 +235,10 @@ WRONG = {
     "nan": ('path = "nan.obj"', [], "nan"),
     "odd cycle": ('path = "odd.obj"', ["pattern.levels=0"], "cycle"),
     "wide clearance": ('shape = "torus"', ["pattern.tile_size=20mm", "solid.clearance=15mm"], "clearance"),
+    "no yellow necks": ('shape = "torus"', ["pattern.arc=0.295", "solid.clearance=0.6mm"], "necks"),
+    "no blue necks": ('shape = "torus"', ["pattern.arc=0.705", "solid.clearance=0.6mm"], "necks"),
+    "too many levels": ('shape = "torus"', ["pattern.levels=12"], "levels"),
+    "no key": ('shape = "torus"', ["=2"], "key=value"),
     "large tiles": ('shape = "torus"', ["pattern.tile_size=500mm"], "tile"),
     "no thickness": ('shape = "torus"', ["solid.thickness=0mm"], "thickness"),
     "unknown key": ('shape = "torus"\nsizes = "60 mm"', [], "size"),
@@ -267,6 +272,8 @@ def test_a_mesh_from_a_file_makes_a_pair(tmp_path: Path) -> None:
     assert report.mesh is not None
     assert (report.mesh.vertices, report.mesh.faces) == (32, 32)
     assert not failed(report, with_printability=False)
+    again = run(tmp_path / "out" / "file" / "config.toml", tmp_path / "again")
+    assert again.parts == report.parts
 
 
 def failed(report: Report, *, with_printability: bool) -> list[str]:

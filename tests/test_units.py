@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fabricate.errors import ConfigError
-from fabricate.units import LENGTH_PATTERN, format_length, parse_length
+from fabricate.units import ANGLE_PATTERN, LENGTH_PATTERN, format_angle, format_length, parse_angle, parse_length
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -81,3 +81,10 @@ def test_whole_millimetres_are_written_without_a_fraction() -> None:
     assert format_length(100.0) == "100 mm"
     assert format_length(0.3) == "0.3 mm"
     assert math.copysign(1, parse_length(format_length(-0.0))) == -1
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_an_angle_survives_writing_and_reading_exactly(angle: float) -> None:
+    text = format_angle(angle)
+    assert parse_angle(text) == angle
+    assert re.match(ANGLE_PATTERN, text)

@@ -175,7 +175,7 @@ def _made_in_worker(order: _Order, stages: _Stages) -> Outcome:
 
 def _made(order: _Order, progress: Callable[[str], None]) -> Outcome:
     try:
-        report = run(load_config(order.path, order.overrides), name=order.name, out=order.out, progress=progress)
+        reports = run(load_config(order.path, order.overrides), name=order.name, out=order.out, progress=progress)
     except FabricateError as error:
         return Outcome(order.name, 2, str(error))
     except MemoryError:
@@ -183,7 +183,13 @@ def _made(order: _Order, progress: Callable[[str], None]) -> Outcome:
     except Exception as error:
         error.add_note(f"while making {order.path}")
         raise
-    return Outcome(order.name, 0 if report.ok else 1, _verdict(report))
+    return Outcome(order.name, 0 if all(report.ok for report in reports) else 1, _verdicts(reports))
+
+
+def _verdicts(reports: Sequence[Report]) -> str:
+    if len(reports) == 1:
+        return _verdict(reports[0])
+    return "; ".join(f"{report.name}: {_verdict(report)}" for report in reports)
 
 
 def _verdict(report: Report) -> str:

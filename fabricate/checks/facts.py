@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Generic, Literal, TypeAlias, TypeVar
 
@@ -60,13 +61,40 @@ class Play:
 
 
 @dataclass(frozen=True)
+class Distance:
+    """How far places of one surface are from another, mm: mean, what 99.9 % keep, largest, and where that is."""
+
+    mean: float
+    p999: float
+    max: float
+    at: Xyz
+
+
+@dataclass(frozen=True)
 class MeshFacts:
-    """The closed surface that is divided; sizes along the axes."""
+    """The closed surface that is divided.
+
+    Attributes
+    ----------
+    vertices, faces, genus : int
+        Of the mesh as it was read and repaired.
+    size_mm : (x, y, z)
+        Of the finished outside.
+    repairs : mapping of str to int
+        How often each repair was made.
+    notes : tuple of str
+        What a user should know of repair and cells.
+    distance_mm : Distance or None
+        From the input to the finished outside, where new cells were made for it.
+    """
 
     vertices: int
     faces: int
     genus: int
     size_mm: Xyz
+    repairs: Mapping[str, int]
+    notes: tuple[str, ...]
+    distance_mm: Distance | None
 
 
 @dataclass(frozen=True)

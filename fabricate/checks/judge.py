@@ -52,7 +52,7 @@ from fabricate.checks.printability import neck_check, process_gap_check, wall_ch
 from fabricate.checks.topology import topology
 from fabricate.checks.walls import walls
 from fabricate.errors import ReadError
-from fabricate.mesh.reading import read_mesh
+from fabricate.formats.reading import read_mesh
 from fabricate.solid.part import Part
 from fabricate.triangles.crossing import crossing_triangles
 

@@ -2,25 +2,44 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
+
 import numpy as np
 
 from fabricate.checks.expectations import Expectations, Neck, Spaces
-from fabricate.checks.facts import ByColour, MeshFacts, PatternFacts, Spread
+from fabricate.checks.facts import ByColour, Distance, MeshFacts, PatternFacts, Spread
 from fabricate.duotone.certificate import Certificate
 from fabricate.duotone.duotone import Duotone
 from fabricate.mesh.closed import genus
-from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.prepare.prepared import Prepared
+from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.process import Process
 from fabricate.solid.assembly import Assembly, Core
 from fabricate.surface.cut import CutSurface
+from fabricate.surface.deviation import deviation
 from fabricate.surface.neck import tile_necks
 from fabricate.surface.sizing import tile_sides
+from fabricate.surface.tiling import Tiling
 
 
-def mesh_facts(mesh: PolygonMesh, surface: CutSurface) -> MeshFacts:
-    """Return the counts of the mesh that was divided and the size of the finished outer surface."""
+def mesh_facts(body: Prepared, tiling: Tiling, surface: CutSurface) -> MeshFacts:
+    """Return what is known of the mesh that was divided, and of the finished outer surface."""
     x, y, z = (float(side) for side in np.ptp(surface.points, axis=0))
-    return MeshFacts(len(mesh.points), len(mesh.offsets) - 1, genus(mesh), (x, y, z))
+    return MeshFacts(
+        vertices=len(body.mesh.points),
+        faces=len(body.mesh.offsets) - 1,
+        genus=genus(body.mesh),
+        size_mm=(x, y, z),
+        repairs=MappingProxyType({action.name: action.count for action in body.actions}),
+        notes=body.notes + tiling.notes,
+        distance_mm=None if tiling.surface is None else _distance(tiling.surface, surface),
+    )
+
+
+def _distance(whole: TriangleMesh, surface: CutSurface) -> Distance:
+    found = deviation(surface.points, surface.triangles, whole.points, whole.triangles)
+    x, y, z = (float(value) for value in found.at)
+    return Distance(found.mean, found.p999, found.max, (x, y, z))
 
 
 def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurface) -> PatternFacts:

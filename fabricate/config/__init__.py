@@ -3,8 +3,9 @@
 from fabricate.config.config import Config
 from fabricate.config.loading import load_config
 from fabricate.config.pattern_config import PatternConfig
+from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
-from fabricate.config.resolved import config_sha256, resolved_toml
+from fabricate.config.resolved import config_sha256, moved_config, resolved_toml
 from fabricate.config.solid_config import SolidConfig
 from fabricate.config.source_config import (
     CubeConfig,
@@ -23,6 +24,7 @@ __all__ = [
     "FrameConfig",
     "KnotConfig",
     "PatternConfig",
+    "PrepareConfig",
     "ProcessConfig",
     "SolidConfig",
     "SourceConfig",
@@ -30,5 +32,6 @@ __all__ = [
     "TorusConfig",
     "config_sha256",
     "load_config",
+    "moved_config",
     "resolved_toml",
 ]

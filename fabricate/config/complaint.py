@@ -14,6 +14,9 @@ from fabricate.config.expectation import expectation
 from fabricate.config.keys import SECTIONS, keys_of, nearest_key
 from fabricate.config.source_config import SHAPES
 
+_RANK = {"extra_forbidden": 0, "literal_error": 2}
+"""Unknown keys come first; of a key that takes a length or a word, what is wrong with the length comes before."""
+
 
 class Complaint(NamedTuple):
     """A dotted key or the name of a section, and the sentence about it."""
@@ -24,7 +27,7 @@ class Complaint(NamedTuple):
 
 def first_complaint(error: ValidationError, document: Mapping[str, Any]) -> Complaint:
     """Return the first mistake in a document; unknown keys come before missing ones."""
-    details = min(error.errors(include_url=False), key=lambda each: each["type"] != "extra_forbidden")
+    details = min(error.errors(include_url=False), key=lambda each: _RANK.get(each["type"], 1))
     if details["type"] == "wrong_value":
         return Complaint(details["ctx"]["key"], details["msg"])
     section, *inner = (str(step) for step in details["loc"])
@@ -33,7 +36,8 @@ def first_complaint(error: ValidationError, document: Mapping[str, Any]) -> Comp
     # Inside [source] the location also names the member of the union.
     models = {model.__name__: model for model in SECTIONS[section]}
     model = models[inner[0]] if section == "source" else SECTIONS[section][0]
-    return Complaint(f"{section}.{inner[-1]}", _wrong_key(section, inner[-1], model, details))
+    key = inner[1 if section == "source" and len(inner) > 1 else 0]  # what follows names a member of a union, too
+    return Complaint(f"{section}.{key}", _wrong_key(section, key, model, details))
 
 
 def _wrong_section(section: str, document: Mapping[str, Any]) -> Complaint:

@@ -1,4 +1,4 @@
-"""The whole config: its four sections, and what they owe each other."""
+"""The whole config: its five sections, and what they owe each other."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
 from fabricate.config.pattern_config import PatternConfig
+from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig, with_process_defaults
 from fabricate.config.section import wrong_value
 from fabricate.config.solid_config import SolidConfig
@@ -22,6 +23,8 @@ class Config(BaseModel):
 
     source: Source
     """What to divide: a built-in shape, or a mesh file."""
+    prepare: PrepareConfig = PrepareConfig()
+    """Repair, components, cells and sharp edges of the mesh."""
     pattern: PatternConfig = PatternConfig()
     """The curve."""
     solid: SolidConfig = SolidConfig()
@@ -43,7 +46,7 @@ class Config(BaseModel):
         if solid.clearance >= 4 * solid.thickness:
             limit = f"less than four times the thickness, {format_length(4 * solid.thickness)}"
             raise _too_large("solid.clearance", solid.clearance, limit)
-        if tile is not None and tile > size:
+        if isinstance(tile, float) and tile > size:
             limit = f"a tile that is not larger than the body, {format_length(size)}"
             raise _too_large("pattern.tile_size", tile, limit)
         return self

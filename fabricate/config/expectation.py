@@ -5,32 +5,43 @@ from __future__ import annotations
 from types import NoneType
 from typing import Literal, get_args, get_origin
 
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, PlainSerializer
 from pydantic.fields import FieldInfo
 
-from fabricate.units import format_length
+from fabricate.units import format_angle, format_length
 
 _BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
 def expectation(field: FieldInfo) -> str:
     """Return in words what a field takes, such as "a whole number, at least 1, at most 32"."""
-    present = _without_none(field)
+    words, present = _without_words(field)
     if get_origin(present.annotation) is Literal:
         return "one of " + ", ".join(f'"{choice}"' for choice in get_args(present.annotation))
     is_length = any(isinstance(fact, BeforeValidator) for fact in present.metadata)
+    is_angle = any(isinstance(fact, PlainSerializer) and fact.func is format_angle for fact in present.metadata)
     kinds: dict[object, str] = {str: "text", int: "a whole number", float: "a number"}
-    show = format_length if is_length else "{:g}".format
+    show = format_angle if is_angle else format_length if is_length else "{:g}".format
     bounds = (
         f"{words} {show(getattr(fact, bound))}"
         for fact in present.metadata
         for bound, words in _BOUNDS.items()
         if hasattr(fact, bound)
     )
-    return ", ".join(["a length" if is_length else kinds[present.annotation], *bounds])
+    kind = "an angle" if is_angle else "a length" if is_length else kinds[present.annotation]
+    return ", ".join([*(f'"{word}"' for word in words), kind, *bounds]).replace('", a', '" or a', 1)
 
 
-def _without_none(field: FieldInfo) -> FieldInfo:
-    """Return the field as it is when a value is given: TOML has no null."""
-    members = get_args(field.annotation)
-    return FieldInfo.from_annotation(members[0]) if NoneType in members else field
+def _without_words(field: FieldInfo) -> tuple[tuple[str, ...], FieldInfo]:
+    """Return the words that a field takes as well, and the field as it is when another value is given.
+
+    TOML has no null, so None is no value.
+    """
+    if get_origin(field.annotation) is Literal:
+        return (), field
+    members = [member for member in get_args(field.annotation) if member is not NoneType]
+    if not members:
+        return (), field
+    words = tuple(word for member in members if get_origin(member) is Literal for word in get_args(member))
+    (other,) = (member for member in members if get_origin(member) is not Literal)
+    return words, FieldInfo.from_annotation(other)

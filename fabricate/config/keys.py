@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import get_args
 
 from fabricate.config.pattern_config import PatternConfig
+from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
 from fabricate.config.section import Section
 from fabricate.config.solid_config import SolidConfig
@@ -16,6 +17,7 @@ from fabricate.config.source_config import SourceConfig
 SECTIONS: Mapping[str, tuple[type[Section], ...]] = MappingProxyType(
     {
         "source": get_args(SourceConfig),
+        "prepare": (PrepareConfig,),
         "pattern": (PatternConfig,),
         "solid": (SolidConfig,),
         "process": (ProcessConfig,),

@@ -32,7 +32,7 @@ def parse_setting(override: str) -> Setting:
         If there is no "=", or no such key; names the nearest one.
     """
     key, equals, text = (part.strip() for part in override.partition("="))
-    if not equals:
+    if not equals or not key:
         raise ConfigError(f'--set: expected key=value such as solid.thickness=2mm, found "{override}"')
     section, _, name = key.partition(".")
     known = keys_of(section)

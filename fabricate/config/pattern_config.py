@@ -13,8 +13,10 @@ from fabricate.config.section import Section, wrong_value
 class PatternConfig(Section):
     """The curve: one closed line that winds over the whole surface."""
 
-    tile_size: Annotated[Length, Field(gt=0)] | None = 7.0
-    """Side of the square tiles that the curve runs through; instead of levels."""
+    tile_size: Literal["auto"] | Annotated[Length, Field(gt=0)] | None = Field(
+        default=7.0, json_schema_extra={"default": "7 mm"}
+    )
+    """Side of the tiles that the curve runs through, or "auto": the finest that prints; instead of levels."""
     levels: Annotated[int, Field(ge=0, le=12)] | None = Field(default=None, examples=[2])
     """How often the quads are divided in four; instead of tile_size."""
     tree: Literal["random", "breadth-first", "depth-first"] = "random"

@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 import hashlib
+import os
+from pathlib import Path
 
 import tomli_w
 
 from fabricate.config.config import Config
+from fabricate.config.source_config import FileConfig
 
 
 def resolved_toml(config: Config) -> str:
     """Return the config as TOML with every default filled in; reading it gives an equal config."""
     return tomli_w.dumps(config.model_dump(mode="json", exclude_none=True))
+
+
+def moved_config(config: Config, folder: Path) -> Config:
+    """Return the config as it reads in another folder: a mesh file is found from there."""
+    if not isinstance(config.source, FileConfig):
+        return config
+    path = os.path.relpath(config.source.file.resolve(), folder.resolve())
+    return config.model_copy(update={"source": config.source.model_copy(update={"path": path})})
 
 
 def config_sha256(config: Config) -> str:

@@ -96,7 +96,7 @@ class FileConfig(Section):
     """A closed mesh read from a file."""
 
     path: Annotated[str, Field(pattern=r"^[^\x00]+$", examples=["models/spot.obj"])]
-    """Mesh file (OBJ, OFF, PLY, STL), found from the folder of this config; instead of shape."""
+    """Mesh file (OBJ, OFF, PLY, STL, 3MF, GLB), found from the folder of this config; instead of shape."""
     size: Size = 100.0
     _folder: Path = PrivateAttr(default=Path())
 

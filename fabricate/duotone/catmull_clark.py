@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array, vstack
+from scipy.sparse import coo_array, csr_array, diags_array, vstack
 
-from fabricate.arrays import Indices
+from fabricate.arrays import Floats, Indices, Mask
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.mesh.half_edges import HalfEdges, half_edges
 from fabricate.mesh.polygon_mesh import PolygonMesh
@@ -27,7 +27,11 @@ def catmull_clark(mesh: PolygonMesh | QuadMesh) -> Subdivision:
     with V vertices, E edges and F faces gives V + F yellow points, E blue ones and 2 E quads. Quad h
     belongs to corner h and runs vertex, next edge point, face point, previous edge point.
 
-    Source: Catmull and Clark, Computer-Aided Design 10(6), 1978; colours after Garigipati 2013, 2.4.
+    Creases are infinitely sharp and go on along both halves of their edge. Where one ends, at a dart, the vertex
+    is smooth; where three or more meet, at a corner, it stays where it is.
+
+    Source: Catmull and Clark, Computer-Aided Design 10(6), 1978; creases after DeRose, Kass and Truong, SIGGRAPH
+    1998; colours after Garigipati 2013, 2.4.
     """
     connectivity = mesh.half_edges if isinstance(mesh, QuadMesh) else half_edges(mesh)
     vertices, faces = len(mesh.points), int(connectivity.face[-1]) + 1
@@ -38,8 +42,13 @@ def catmull_clark(mesh: PolygonMesh | QuadMesh) -> Subdivision:
         axis=1,
     )
     matrix = _matrix(connectivity, edge, vertices, faces)
+    if mesh.creases.any():
+        matrix = _creased(matrix, connectivity, edge, mesh.creases, vertices)
     yellow = np.arange(matrix.shape[0]) < vertices + faces
-    return Subdivision(QuadMesh(matrix @ mesh.points, tiles, _twins(connectivity), yellow), matrix)
+    creases = np.zeros((len(tiles), 4), dtype=bool)
+    creases[:, 0], creases[:, 3] = mesh.creases, mesh.creases[connectivity.preceding]
+    quads = QuadMesh(matrix @ mesh.points, tiles, _twins(connectivity), yellow, creases.ravel())
+    return Subdivision(quads, matrix)
 
 
 def subdivided(mesh: PolygonMesh, *, levels: int) -> QuadMesh:
@@ -89,3 +98,27 @@ def _matrix(old: HalfEdges, edge: Indices, vertices: int, faces: int) -> csr_arr
     ).tocsr()
     vertex_rule = diagonal + around + fans @ face_rule
     return csr_array(vstack([vertex_rule, face_rule, edge_rule], format="csr"))
+
+
+def _creased(smooth: csr_array, old: HalfEdges, edge: Indices, creases: Mask, vertices: int) -> csr_array:
+    """Return the matrix of the smooth rules with the rows of creases and corners replaced.
+
+    The middle of each crease; 1/8, 6/8, 1/8 along the two creases that meet at a vertex; corners stay.
+    """
+    sharp = np.flatnonzero(creases)
+    tail, head = old.tail[sharp], old.tail[old.twin[sharp]]
+    meeting = np.bincount(tail, minlength=vertices)
+    kept: Floats = np.ones(smooth.shape[0])
+    kept[:vertices][meeting >= 2] = 0.0
+    first_edge = smooth.shape[0] - len(old.tail) // 2
+    kept[first_edge + edge[sharp]] = 0.0
+    through = meeting[tail] == 2
+    corners = np.flatnonzero(meeting > 2)
+    rows = [first_edge + edge[sharp], tail[through], tail[through], corners]
+    columns = [tail, tail[through], head[through], corners]
+    weights = [0.5, 0.375, 0.125, 1.0]  # each half-edge of a crease gives its share
+    values = np.concatenate([np.full(len(r), weight) for r, weight in zip(rows, weights, strict=True)])
+    rules = coo_array((values, (np.concatenate(rows), np.concatenate(columns))), shape=smooth.shape).tocsr()
+    matrix = csr_array(diags_array(kept) @ smooth + rules)
+    matrix.eliminate_zeros()
+    return matrix

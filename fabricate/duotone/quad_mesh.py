@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -39,18 +39,23 @@ class QuadMesh:
         The half-edge on the other side of each half-edge.
     yellow : (n,) bool
         True at yellow points, False at blue ones.
+    creases : (4 t,) bool
+        True on both half-edges of every tile side that stays sharp when the mesh is subdivided; by default on none.
     """
 
     points: Floats
     tiles: Indices
     twins: Indices
     yellow: Mask
+    creases: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", frozen(self.points, np.float64, (None, 3)))
         object.__setattr__(self, "tiles", frozen(self.tiles, np.int64, (None, 4)))
         object.__setattr__(self, "twins", frozen(self.twins, np.int64, (4 * len(self.tiles),)))
         object.__setattr__(self, "yellow", frozen(self.yellow, np.bool_, (len(self.points),)))
+        creases = self.creases if len(self.creases) else np.zeros(4 * len(self.tiles), dtype=bool)
+        object.__setattr__(self, "creases", frozen(creases, np.bool_, (4 * len(self.tiles),)))
 
     @property
     def half_edges(self) -> HalfEdges:
@@ -59,6 +64,11 @@ class QuadMesh:
         following = h + 1 - 4 * (h % 4 == 3)
         preceding = h - 1 + 4 * (h % 4 == 0)
         return HalfEdges(self.tiles.ravel(), following, preceding, h // 4, self.twins)
+
+    @property
+    def crease_counts(self) -> Indices:
+        """(n,) int: number of creases that meet at each point: 1 at a dart, 2 on a crease, more at a corner."""
+        return np.bincount(self.tiles.ravel()[self.creases], minlength=len(self.points))
 
     @property
     def genus(self) -> int:
@@ -93,7 +103,7 @@ def two_coloured(mesh: PolygonMesh) -> QuadMesh:
     renumbered = np.zeros_like(old)
     renumbered[old] = np.arange(len(old))
     twins = renumbered[connectivity.twin[old]]
-    return QuadMesh(mesh.points, mesh.corners[old].reshape(-1, 4), twins, yellow)
+    return QuadMesh(mesh.points, mesh.corners[old].reshape(-1, 4), twins, yellow, mesh.creases[old])
 
 
 def _colours(quads: Indices, tail: Indices, head: Indices, count: int) -> Mask:

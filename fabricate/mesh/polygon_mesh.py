@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fabricate.arrays import Floats, Indices, frozen
+from fabricate.arrays import Floats, Indices, Mask, frozen
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,16 +32,21 @@ class PolygonMesh:
         Point index of each corner, face after face.
     offsets : (f + 1,) int
         Where each face begins in `corners`; the last entry is the number of corners.
+    creases : (h,) bool
+        True on both half-edges of every edge that stays sharp when the mesh is subdivided; by default on none.
     """
 
     points: Floats
     corners: Indices
     offsets: Indices
+    creases: Mask = field(default_factory=lambda: np.zeros(0, dtype=bool))
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", frozen(self.points, np.float64, (None, 3)))
         object.__setattr__(self, "corners", frozen(self.corners, np.int64, (None,)))
         object.__setattr__(self, "offsets", frozen(self.offsets, np.int64, (None,)))
+        creases = self.creases if len(self.creases) else np.zeros(len(self.corners), dtype=bool)
+        object.__setattr__(self, "creases", frozen(creases, np.bool_, (len(self.corners),)))
 
     @classmethod
     def from_faces(cls, points: ArrayLike, faces: Iterable[Sequence[int]]) -> PolygonMesh:
@@ -70,8 +75,8 @@ class PolygonMesh:
         return following
 
     def moved(self, points: Floats) -> PolygonMesh:
-        """Return the same polygons on other points."""
-        return PolygonMesh(points, self.corners, self.offsets)
+        """Return the same polygons and creases on other points."""
+        return PolygonMesh(points, self.corners, self.offsets, self.creases)
 
     def scaled(self, factor: float) -> PolygonMesh:
         """Return the mesh with every coordinate multiplied by `factor`."""

@@ -25,7 +25,7 @@ def write_new_config(name: str, folder: Path) -> Path:
         If the file cannot be written.
     """
     if not _NAME.fullmatch(name) or name.endswith(".toml"):
-        raise ConfigError(f'expected a name of letters, digits, "-", "_" and ".", without .toml, found "{name}"')
+        raise ConfigError(f'expected a name of letters, digits, "-", "_" and ".", without .toml, found {name!r}')
     path = folder / f"{name}.toml"
     try:
         _write_new(path, commented_toml(name).encode())

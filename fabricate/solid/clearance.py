@@ -13,7 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
+from fabricate.errors import SolidError
 from fabricate.surface.cut import CutSurface
+from fabricate.surface.neck import tile_necks
 from fabricate.triangles.normals import unit
 
 ROOMY = 2.0
@@ -53,6 +55,24 @@ class Shares(NamedTuple):
 
     yellow: Floats
     blue: Floats
+
+
+def check_necks(surface: CutSurface, *, clearance: float) -> None:
+    """Raise an error if the clearance, mm, leaves nothing of a quarter of the necks.
+
+    Half of the tiles are joined by either colour, so that is about half of the narrower colour's necks.
+
+    Raises
+    ------
+    SolidError
+    """
+    neck = float(np.quantile(tile_necks(surface)[0], 0.25))
+    if clearance >= neck:
+        raise SolidError(
+            f"a clearance of {clearance:g} mm leaves nothing of a quarter of the necks, which are at most "
+            f"{neck:.3g} mm wide; ask for a smaller solid.clearance, a larger pattern.tile_size "
+            "or a pattern.arc nearer to 0.5"
+        )
 
 
 def ray_sides(surface: CutSurface, points: Floats) -> RaySides:

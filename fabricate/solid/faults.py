@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from fabricate.arrays import Indices, Mask
+from fabricate.arrays import Floats, Indices, Mask
 from fabricate.solid.assembly import Assembly
 from fabricate.triangles.crossing import crossing_triangles, triangles_near
 from fabricate.triangles.search_tree import SearchTree
 
 GAP_SHARE = 0.965
 """A gap below this share of the clearance is a fault here; the promise to the user is 0.95."""
+
+AT_RIM = 1e-3
+"""Nearer than this to the outer layer a place on a wall is on it, mm."""
 
 ALONG_EDGE = np.array([[0.75, 0.25], [0.5, 0.5], [0.25, 0.75]])
 """Where edges longer than the clearance are measured, as weights of their ends."""
@@ -35,7 +38,7 @@ def near_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
 
     Only near `moved` points, (n,) bool. Each part is measured at its points, and along its long edges where these
     could come too near: a point of an edge is no nearer than half of what its ends' distances add up to beyond
-    its length.
+    its length. Places where the outer surfaces themselves are that near are left out: no inner surface cures those.
     """
     triangles = np.concatenate([assembly.yellow, assembly.blue])
     around = _around(assembly, triangles, moved, reach=clearance)
@@ -44,13 +47,16 @@ def near_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
     if not len(yellow) or not len(blue):
         return np.zeros_like(moved)
     least = GAP_SHARE * clearance
+    outer = _outer(assembly, clearance)
     near = []
     for own, other in ((yellow, blue), (blue, yellow)):
         tree = SearchTree.of(assembly.points, other)
         numbers = np.unique(own)
         distance = np.full(len(assembly.points), np.inf)
-        distance[numbers] = tree.nearest(assembly.points[numbers]).distance
-        near.append(numbers[distance[numbers] < least])
+        nearest = tree.nearest(assembly.points[numbers])
+        distance[numbers] = nearest.distance
+        curable = ~outer[numbers] | _below(assembly.points, other[nearest.triangle], nearest.point, outer)
+        near.append(numbers[curable & (nearest.distance < least)])
         edges = np.concatenate([own[:, [0, 1]], own[:, [1, 2]], own[:, [2, 0]]])
         edges = edges[edges[:, 0] < edges[:, 1]]
         ends = assembly.points[edges]
@@ -58,9 +64,22 @@ def near_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
         close = (length > clearance) & (distance[edges].sum(axis=1) - length < 2.0 * least)
         samples = np.einsum("sk,ekj->esj", ALONG_EDGE, ends[close])
         found = tree.nearest(samples.reshape(-1, 3)).distance.reshape(samples.shape[:2])
-        near.append(edges[close][(found < least).any(axis=1)].ravel())
-    numbers = np.concatenate(near)
-    return _surface_points(assembly, numbers[~_outer(assembly, clearance)[numbers]])
+        ends_near = edges[close][(found < least).any(axis=1)].ravel()
+        near.append(ends_near[~outer[ends_near]])
+    return _surface_points(assembly, np.concatenate(near))
+
+
+def _below(points: Floats, triangles: Indices, places: Floats, outer: Mask) -> Mask:
+    """Return which places, each on its triangle, are not on the outer layer, (q,) bool."""
+    on_outer = outer[triangles]
+    rows = np.arange(len(triangles))
+    first = points[triangles[rows, on_outer.argmax(axis=1)]]
+    along = points[triangles[rows, 2 - on_outer[:, ::-1].argmax(axis=1)]] - first
+    length = np.maximum(np.einsum("ij,ij->i", along, along), np.finfo(float).tiny)
+    share = np.clip(np.einsum("ij,ij->i", places - first, along) / length, 0.0, 1.0)
+    away = np.linalg.norm(places - first - share[:, None] * along, axis=1)
+    below: Mask = ~on_outer.all(axis=1) & (~on_outer.any(axis=1) | (away > AT_RIM))
+    return below
 
 
 def _around(assembly: Assembly, triangles: Indices, moved: Mask, *, reach: float) -> Indices:

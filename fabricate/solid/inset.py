@@ -14,14 +14,24 @@ from scipy.sparse import csr_array
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import grown
+from fabricate.triangles.normals import area_vectors, unit
 from fabricate.triangles.ray_casting import first_hits
 
 DEPTH_SLOPE = 0.7
 """A capped depth may change by this much per mm along the surface."""
 
+START = 1e-3
+"""How far under the surface a ray begins, mm, so that it does not hit where it comes from."""
+
 SLOPE_PASSES = 30
 RINGS, SWEEPS = 3, 3
 """How far around a fault points are relaxed, in edges, and how often in a round."""
+
+TURNS, TURN = 30, 0.2
+"""How often the way down is turned where it is too shallow, and by how much."""
+
+LEAST_STEEP = 0.3
+"""Least cosine between the way down and that of each triangle around a point."""
 
 TILES, SLIDES = 1, 36
 """How far around a fault points slide, in tiles, and how often in a round."""
@@ -33,14 +43,39 @@ SAFE_DEPTH = 0.03
 """The safe depth, as a share of the capped one."""
 
 
-def capped_depth(surface: CutSurface, *, thickness: float, between: float) -> Floats:
+def downward(surface: CutSurface, ways: Floats) -> Floats:
+    """Return the ways into the body from each point, (n, 3), turned where they do not go in.
+
+    Where a coarse tessellation bends so sharply that a way hardly goes through one of the triangles around a
+    point, or not at all, it turns towards those triangles' own until it goes in through all of them, if there is
+    such a way.
+    """
+    facets = unit(area_vectors(surface.points, surface.triangles))
+    length = np.linalg.norm(ways, axis=1, keepdims=True)
+    way: Floats = unit(ways)
+    corners = surface.triangles
+    for _ in range(TURNS):
+        shallow = -np.einsum("ij,ikj->ik", facets, way[corners]) < LEAST_STEEP
+        if not shallow.any():
+            break
+        pull = np.zeros_like(way)
+        for k in range(3):
+            np.add.at(pull, corners[shallow[:, k], k], -facets[shallow[:, k]])
+        way = unit(way + TURN * unit(pull))
+    turned: Floats = length * way
+    return turned
+
+
+def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float, between: float) -> Floats:
     """Return the depth of each inner point, (n,) mm: the thickness, less where the body is thin.
 
-    Where the straight way through the body is shorter than two walls and `between`, the two inner
+    `ways`, (n, 3), are those by which a point moves in for each mm of depth, longer than 1 at sharp edges. Where
+    the way through the body is shorter than two walls and `between`, the two inner
     surfaces keep `between` mm from each other. The depth changes gently from point to point.
     """
-    start = surface.points - 1e-3 * surface.normals
-    through = first_hits(surface.points, surface.triangles, start, -surface.normals).distance
+    inward = unit(ways)
+    hits = first_hits(surface.points, surface.triangles, surface.points + START * inward, inward)
+    through = hits.distance / np.linalg.norm(ways, axis=1)
     depth: Floats = np.clip((through - between) / 2.0, 0.1 * thickness, thickness)
     if (depth < thickness).any():
         ends = _edges(surface.triangles)
@@ -60,18 +95,26 @@ def slid(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> 
     """
     wide = np.flatnonzero(grown(faulty, means, TILES * (surface.rays.shape[2] - 1)))
     rows, normals = means[wide], surface.normals[wide]
+    sharp, along = (surface.mitre > 1.0)[wide, None], surface.along[wide]
     inner = inner.copy()
     for _ in range(SLIDES):
         way = rows @ inner - inner[wide]
-        inner[wide] += way - np.einsum("ij,ij->i", way, normals)[:, None] * normals
+        aside = way - np.einsum("ij,ij->i", way, normals)[:, None] * normals
+        inner[wide] += np.where(sharp, np.einsum("ij,ij->i", way, along)[:, None] * along, aside)
     return inner
 
 
-def relaxed(inner: Floats, faulty: Mask, means: csr_array) -> Floats:
-    """Return the inner points, those close to the faulty ones moved to the mean of their neighbours."""
+def relaxed(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> Floats:
+    """Return the inner points, those close to the faulty ones moved to the mean of their neighbours.
+
+    Points under creases only move along these.
+    """
     around = grown(faulty, means, RINGS)[:, None]
+    sharp = (surface.mitre > 1.0)[:, None]
     for _ in range(SWEEPS):
-        inner = np.where(around, means @ inner, inner)
+        way = means @ inner - inner
+        kept = np.einsum("ij,ij->i", way, surface.along)[:, None] * surface.along
+        inner = inner + np.where(around, np.where(sharp, kept, way), 0.0)
     return inner
 
 

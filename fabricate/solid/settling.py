@@ -17,7 +17,7 @@ from fabricate.arrays import Floats, Mask
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.errors import SolidError
-from fabricate.solid.clearance import clearance_shares, ray_sides, too_near
+from fabricate.solid.clearance import check_necks, clearance_shares, ray_sides, too_near
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
 from fabricate.surface.resolution import resolution_for
@@ -48,7 +48,7 @@ def fitted_cut(duotone: Duotone, *, arc: float = 0.5, tolerance: float = 0.05, c
         If the arc position is out of range, the tolerance would need too many triangles, or the duotone has
         more than one curve.
     SolidError
-        If the clearance does not fit into more than a tenth of the tiles.
+        If the clearance is as wide as necks are, or does not fit into more than a tenth of the tiles.
     """
     resolution = resolution_for(duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance)
     return settled(duotone, clearance=clearance, arc=arc, resolution=resolution)
@@ -58,6 +58,7 @@ def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) 
     """Return the cut surface of the duotone, its tiles slid where the clearance, mm, does not fit."""
     quads = duotone.quads
     surface = cut(duotone, LimitSurface.of(quads), arc=arc, resolution=resolution)
+    check_necks(surface, clearance=clearance)
     fewest, waited = len(duotone.joined) + 1, 0
     for _ in range(ROUNDS if clearance > 0.0 else 0):
         tight = tight_tiles(surface, clearance=clearance)
@@ -90,7 +91,10 @@ def tight_tiles(surface: CutSurface, *, clearance: float) -> Mask:
 
 
 def _slid(quads: QuadMesh, tight: Mask) -> QuadMesh:
-    """Move the control points of the tight tiles and their neighbours within their tangent planes."""
+    """Move the control points of the tight tiles and their neighbours within their tangent planes.
+
+    Those on creases move along these; corners and darts stay.
+    """
     tail = quads.tiles.ravel()
     head = np.roll(quads.tiles, -1, axis=1).ravel()
     count = len(quads.points)
@@ -102,7 +106,23 @@ def _slid(quads: QuadMesh, tight: Mask) -> QuadMesh:
     way = means @ quads.points - quads.points
     normals = _control_normals(quads)
     way -= np.einsum("ij,ij->i", way, normals)[:, None] * normals
+    if quads.creases.any():
+        way = np.where(quads.crease_counts[:, None] == 0, way, _ways_along_creases(quads))
     return replace(quads, points=quads.points + STEP * moving[:, None] * way)
+
+
+def _ways_along_creases(quads: QuadMesh) -> Floats:
+    """Return the way of each point on a crease along it, to beside the mean of its two neighbours there, (n, 3)."""
+    count = len(quads.points)
+    tail, head = quads.tiles.ravel()[quads.creases], np.roll(quads.tiles, -1, axis=1).ravel()[quads.creases]
+    through = np.flatnonzero(quads.crease_counts == 2)
+    ends = head[np.argsort(tail, kind="stable")][np.isin(np.sort(tail), through)].reshape(-1, 2)
+    first, second = quads.points[ends[:, 0]], quads.points[ends[:, 1]]
+    along = unit(second - first)
+    to_mean = 0.5 * (first + second) - quads.points[through]
+    ways = np.zeros((count, 3))
+    ways[through] = np.einsum("ij,ij->i", to_mean, along)[:, None] * along
+    return ways
 
 
 def _control_normals(quads: QuadMesh) -> Floats:

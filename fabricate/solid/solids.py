@@ -8,14 +8,15 @@ from scipy.sparse import csr_array
 from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
+from fabricate.solid.clearance import check_necks
 from fabricate.solid.faults import crossing_points, near_points
-from fabricate.solid.inset import SAFE_DEPTH, capped_depth, relaxed, retreated, slid
+from fabricate.solid.inset import SAFE_DEPTH, capped_depth, downward, relaxed, retreated, slid
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.neck import tile_necks
+from fabricate.surface.mitre import Mitred, ways_out
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 
-RETREAT_FROM, ALL_ROUNDS, PATIENCE = 4, 60, 3
+RETREAT_FROM, ALL_ROUNDS, PATIENCE = 4, 60, 6
 """Round from which stubborn places retreat, rounds in all, and how many in which only the gap is too small and does
 not get better; the checks report what is left."""
 
@@ -37,18 +38,21 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     _check_sizes(surface, thickness, clearance)
     _check_embedded(surface)
     between = 1.1 * clearance if core == "hollow" else 2.0 * clearance + CORE_WEB
-    depth = capped_depth(surface, thickness=thickness, between=between)
-    inner, safe = _under(surface, depth), _under(surface, SAFE_DEPTH * depth)
+    mitred = Mitred(surface.normals, surface.mitre, surface.along)
+    down = downward(surface, -ways_out(surface.points, surface.triangles, mitred, depth=thickness))
+    depth = capped_depth(surface, down, thickness=thickness, between=between)
+    inner, safe = surface.base + depth[:, None] * down, surface.points + SAFE_DEPTH * depth[:, None] * down
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
-    fewest, waited = len(inner) + 1, 0
+    fewest, waited = (len(inner), len(inner)), 0
     for step in range(ALL_ROUNDS):
         made = assembly(surface, inner, clearance=clearance, core=core)
         crossing, near = _faults(made, clearance, moved, all_kinds=step < RETREAT_FROM)
         if not (crossing | near).any():
             break
-        if step >= RETREAT_FROM and not crossing.any():
-            fewest, waited = min(fewest, int(near.sum())), waited + 1 if near.sum() >= fewest else 0
+        left = (int(crossing.sum()), int(near.sum()))
+        if step >= RETREAT_FROM:
+            fewest, waited = min(fewest, left), waited + 1 if left >= fewest else 0
             if waited == PATIENCE:
                 break
         mended = _mended(surface, inner, crossing | near, means, safe=safe, retreating=step >= RETREAT_FROM)
@@ -62,7 +66,7 @@ def _mended(
 ) -> Floats:
     if retreating:
         return retreated(surface, inner, faulty, means, safe=safe)
-    return relaxed(slid(surface, inner, faulty, means), faulty, means)
+    return relaxed(surface, slid(surface, inner, faulty, means), faulty, means)
 
 
 def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> tuple[Mask, Mask]:
@@ -80,21 +84,12 @@ def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -
     return crossing, near
 
 
-def _under(surface: CutSurface, depth: Floats) -> Floats:
-    return surface.points - depth[:, None] * surface.normals
-
-
 def _check_sizes(surface: CutSurface, thickness: float, clearance: float) -> None:
     if not thickness > 0.0:
         raise SolidError(f"the thickness must be positive, found {thickness:g} mm")
     if not clearance >= 0.0:
         raise SolidError(f"the clearance must not be negative, found {clearance:g} mm")
-    neck = float(np.median(tile_necks(surface)[0]))
-    if clearance >= neck:
-        raise SolidError(
-            f"a clearance of {clearance:g} mm leaves nothing of necks that are {neck:.3g} mm wide; "
-            "ask for a smaller solid.clearance or a larger pattern.tile_size"
-        )
+    check_necks(surface, clearance=clearance)
 
 
 def _check_embedded(surface: CutSurface) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from fabricate.duotone.curve import traced_arcs
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.surface.limit import LimitSurface, Samples
+from fabricate.surface.mitre import crease_sides, mitred_normals
 from fabricate.surface.template import TileTemplate, tile_template
 
 
@@ -28,7 +29,8 @@ class CutSurface:
     Attributes
     ----------
     points, normals : (n, 3) float
-        Positions in mm and unit outward normals, both of the exact limit surface.
+        Positions in mm and unit outward normals, both of the exact limit surface. On a crease, which has a normal
+        on either side, the direction that leads out of all of them alike.
     triangles : (m, 3) int
         Counter-clockwise seen from outside.
     yellow : (m,) bool
@@ -41,6 +43,14 @@ class CutSurface:
         last ray of an arc is the first of the next.
     order : (2 t,) int
         Arc numbers along the curve.
+    mitre : (n,) float
+        How much further than a depth one has to go against the normal to be that deep under every side of a crease
+        (see `surface.mitre`); exactly 1 elsewhere, and everywhere by default.
+    along : (n, 3) float
+        Unit tangent of the crease at its points; zero at corners and elsewhere, and everywhere by default.
+    base : (n, 3) float
+        The smooth surface that the inner one follows, mm: without the detail of a surface that `points` were
+        carried onto; the points themselves by default.
     """
 
     points: Floats
@@ -50,9 +60,15 @@ class CutSurface:
     curve: Indices
     rays: Indices
     order: Indices
+    mitre: Floats = field(default_factory=lambda: np.zeros(0))
+    along: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    base: Floats = field(default_factory=lambda: np.zeros((0, 3)))
 
     def __post_init__(self) -> None:
         count = len(self.points)
+        for name, nothing in (("mitre", np.ones(count)), ("along", np.zeros((count, 3))), ("base", self.points)):
+            if not len(getattr(self, name)):
+                object.__setattr__(self, name, nothing)
         for name, dtype, shape in (
             ("points", np.float64, (None, 3)),
             ("normals", np.float64, (count, 3)),
@@ -61,6 +77,9 @@ class CutSurface:
             ("curve", np.int64, (None,)),
             ("rays", np.int64, (None, None, None)),
             ("order", np.int64, (len(self.rays),)),
+            ("mitre", np.float64, (count,)),
+            ("along", np.float64, (count, 3)),
+            ("base", np.float64, (count, 3)),
         ):
             object.__setattr__(self, name, frozen(getattr(self, name), dtype, shape))
 
@@ -99,14 +118,17 @@ def cut(duotone: Duotone, limit: LimitSurface, *, arc: float, resolution: int) -
             rays[2 * own + side] = table[own][:, template.rays[side]]
     order = traced_arcs(duotone)
     middle = rays.shape[2] // 2
+    mitred = mitred_normals(operator.normals(limit.control), crease_sides(duotone.quads, limit, templates[0], table))
     return CutSurface(
         operator.positions(limit.control),
-        operator.normals(limit.control),
+        mitred.normals,
         np.concatenate([table[own][:, t.triangles].reshape(-1, 3) for own, t in zip(tiles, templates, strict=True)]),
         np.concatenate([np.tile(t.yellow, len(own)) for own, t in zip(tiles, templates, strict=True)]),
         rays[order, :-1, middle].ravel(),
         rays,
         order,
+        mitred.mitre,
+        mitred.along,
     )
 
 

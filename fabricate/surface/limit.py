@@ -1,8 +1,9 @@
 """Points and normals on the exact Catmull-Clark limit surface of a quad mesh.
 
 One more Catmull-Clark step splits every tile into four quarters with at most one extraordinary corner, the tile's
-own; each quarter is a patch (see `patch`). Evaluation is linear in the control points and kept as such: a
-`LimitOperator` is a block-sparse matrix that can be applied to positions, colours or any other attribute.
+own, from which also all creases start that come near; each quarter is a patch (see `patch`). Evaluation is linear in
+the control points and kept as such: a `LimitOperator` is a block-sparse matrix that can be applied to positions,
+colours or any other attribute.
 """
 
 from __future__ import annotations
@@ -12,10 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fabricate.arrays import Floats, Indices
+from fabricate.arrays import Floats, Indices, Mask
 from fabricate.duotone.catmull_clark import catmull_clark
 from fabricate.duotone.quad_mesh import QuadMesh
-from fabricate.surface.patch import PatchBasis, patch_basis
+from fabricate.surface.patch import PatchBasis, corner_position, patch_basis
 from fabricate.triangles.normals import unit
 
 
@@ -49,7 +50,7 @@ class LimitOperator:
         return self._applied(control, 0)
 
     def normals(self, control: Floats) -> Floats:
-        """Return unit outward normals of the limit surface, (size, 3) float."""
+        """Return unit outward normals of the limit surface, (size, 3) float; on a crease, of a tile that was asked."""
         return unit(np.cross(self._applied(control, 1), self._applied(control, 2)))
 
     def _applied(self, control: Floats, member: int) -> Floats:
@@ -104,15 +105,19 @@ class LimitSurface:
         blocks = []
         for n in np.unique(valence):
             group = np.flatnonzero(valence == n)
-            control = _control_points(self.refined, quarters[group], int(n))
-            blocks.append(_Block(rows[group], control, patch_basis(local, valence=int(n))))
+            spokes = _spokes(self.refined, 4 * quarters[group], int(n))
+            control = _control_points(self.refined, quarters[group], spokes)
+            for creases, same in _alike(self.refined.creases[spokes]):
+                basis = patch_basis(local, valence=int(n), creases=creases)
+                blocks.append(_Block(rows[group[same]], control[same], basis))
         return blocks
 
 
 def limit_vertices(quads: QuadMesh) -> Floats:
     """Return the limit position of every vertex, (n, 3) float, mm.
 
-    Mask: (N^2 v + 4 sum of neighbours + sum of diagonal points) / (N (N + 5)).
+    Mask: (N^2 v + 4 sum of neighbours + sum of diagonal points) / (N (N + 5)). On a crease (e + 4 v + e') / 6 with its
+    two neighbours there; a corner stays.
     """
     total = np.zeros_like(quads.points)
     n = np.bincount(quads.tiles.ravel(), minlength=len(quads.points))[:, None]
@@ -122,7 +127,30 @@ def limit_vertices(quads: QuadMesh) -> Floats:
         for axis in range(3):
             total[:, axis] += np.bincount(quads.tiles[:, k], values[:, axis], minlength=len(total))
     limit: Floats = (n * n * quads.points + total) / (n * (n + 5.0))
+    if quads.creases.any():
+        _put_on_creases(limit, quads)
     return limit
+
+
+def _put_on_creases(limit: Floats, quads: QuadMesh) -> None:
+    """Replace the limit positions of corners, points on creases, and darts."""
+    tail = quads.tiles.ravel()
+    sharp = np.flatnonzero(quads.creases)
+    first = sharp[np.unique(tail[sharp], return_index=True)[1]]
+    valence = np.bincount(tail, minlength=len(limit))[tail[first]]
+    for n in np.unique(valence):
+        spokes = _spokes(quads, first[valence == n], int(n))
+        for creases, same in _alike(quads.creases[spokes]):
+            ring = _ring(quads, spokes[same])
+            limit[ring[:, 0]] = np.einsum("k,pkj->pj", corner_position(creases), quads.points[ring])
+
+
+def _alike(spokes: Mask) -> list[tuple[tuple[bool, ...], Indices]]:
+    """Return each different row of creases, (q, N) bool, with the numbers of the rows that are like it."""
+    if not spokes.any():
+        return [((False,) * spokes.shape[1], np.arange(len(spokes)))]
+    kinds, kind = np.unique(spokes, axis=0, return_inverse=True)
+    return [(tuple(row), np.flatnonzero(kind == k)) for k, row in enumerate(kinds.tolist())]
 
 
 def _quarter(uv: Floats) -> Indices:
@@ -138,32 +166,43 @@ def _local(uv: Floats, quarter: int) -> Floats:
     return 2.0 * np.stack(turned, axis=1)
 
 
-def _control_points(mesh: QuadMesh, quads: Indices, valence: int) -> Indices:
-    """Return the 2 N + 8 control points of patches whose corner 0 has valence N, (q, 2 N + 8) int."""
+def _following(h: Indices) -> Indices:
+    return 4 * (h // 4) + (h + 1) % 4
+
+
+def _preceding(h: Indices) -> Indices:
+    return 4 * (h // 4) + (h - 1) % 4
+
+
+def _spokes(mesh: QuadMesh, first: Indices, valence: int) -> Indices:
+    """Return the half-edges that leave the same point of valence N, counter-clockwise, (q, N) int."""
+    spokes = [first]
+    for _ in range(valence - 1):
+        spokes.append(mesh.twins[_preceding(spokes[-1])])
+    return np.stack(spokes, axis=1)
+
+
+def _ring(mesh: QuadMesh, spokes: Indices) -> Indices:
+    """Return the point that spokes leave and its ring of ends and diagonal points in turn, (q, 2 N + 1) int."""
+    tail, ends = mesh.tiles.ravel(), _following(spokes)
+    ring = np.stack([tail[ends], tail[_following(ends)]], axis=2).reshape(len(spokes), -1)
+    return np.concatenate([tail[spokes[:, :1]], ring], axis=1)
+
+
+def _control_points(mesh: QuadMesh, quads: Indices, spokes: Indices) -> Indices:
+    """Return the 2 N + 8 control points of patches with these spokes at corner 0, (q, 2 N + 8) int."""
     tail, twin = mesh.tiles.ravel(), mesh.twins
-
-    def following(h: Indices) -> Indices:
-        return 4 * (h // 4) + (h + 1) % 4
-
-    def preceding(h: Indices) -> Indices:
-        return 4 * (h // 4) + (h - 1) % 4
-
-    columns = [tail[4 * quads]]
-    spoke = 4 * quads
-    for _ in range(valence):
-        columns += [tail[following(spoke)], tail[following(following(spoke))]]
-        spoke = twin[preceding(spoke)]
     right, top = twin[4 * quads + 1], twin[4 * quads + 2]
-    lower_right = twin[following(right)]
-    upper_right = twin[preceding(right)]
-    upper_left = twin[preceding(top)]
-    columns += [
-        tail[preceding(lower_right)],
-        tail[following(following(right))],
-        tail[preceding(right)],
-        tail[following(following(upper_right))],
-        tail[following(following(top))],
-        tail[preceding(top)],
-        tail[following(following(upper_left))],
+    lower_right = twin[_following(right)]
+    upper_right = twin[_preceding(right)]
+    upper_left = twin[_preceding(top)]
+    far = [
+        tail[_preceding(lower_right)],
+        tail[_following(_following(right))],
+        tail[_preceding(right)],
+        tail[_following(_following(upper_right))],
+        tail[_following(_following(top))],
+        tail[_preceding(top)],
+        tail[_following(_following(upper_left))],
     ]
-    return np.stack(columns, axis=1)
+    return np.concatenate([_ring(mesh, spokes), np.stack(far, axis=1)], axis=1)

@@ -13,9 +13,14 @@ with the patch between e0 and e1; then seven points round the far side:
               |       |       |           16 points are those of a bicubic B-spline.
             e[N-1]- f[N-1]--(2,-1)
 
+Any of the spokes from 0 to e0, e1, ... may be a crease; it then goes on in a straight count of points beyond its e, and
+no other crease comes near. Beside a crease the surface is that of the points on its own side alone: a bicubic
+B-spline whose points across are the mirror images, twice the crease's minus the inner ones, of those on this side.
+
 Source: the invariant neighbourhood and its subdivision matrix follow Stam, SIGGRAPH 1998; powers of the matrix are
 multiplied out instead of diagonalised, as a tile's samples lie only a few subdivisions from the corner. Limit masks
-at the corner: Halstead, Kass and DeRose, SIGGRAPH 1993.
+at the corner: Halstead, Kass and DeRose, SIGGRAPH 1993. Crease rules: DeRose, Kass and Truong, SIGGRAPH 1998; their
+limits at the corner of a patch come from powers of the matrix, as its eigenvalues depend on every sector's size.
 """
 
 from __future__ import annotations
@@ -24,7 +29,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fabricate.arrays import Floats, Indices, Mask
+from fabricate.arrays import Floats, Mask
+
+SETTLED = 200
+"""Steps to the tangents at a creased corner. Most stand still long before; those of a single tile beside a crease,
+or of two tiles between creases at a corner, go on turning in step n by about 1 / n of what is left."""
 
 FAR_POINTS = ((2, -1), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (-1, 2))
 """The seven far points in the order of their numbers 2 N + 1 to 2 N + 7."""
@@ -42,30 +51,55 @@ class PatchBasis(NamedTuple):
     along_v: Floats
 
 
-def patch_basis(uv: Floats, *, valence: int) -> PatchBasis:
-    """Return the basis functions at parameters `uv`, (s, 2) float in [0, 1]."""
+def patch_basis(uv: Floats, *, valence: int, creases: tuple[bool, ...] = ()) -> PatchBasis:
+    """Return the basis functions at parameters `uv`, (s, 2) float in [0, 1].
+
+    `creases` says of each of the N spokes whether it is a crease; by default none is. On a crease derivatives are
+    those of the patch's own side.
+    """
     count = 2 * valence + 8
-    if valence == 4:
-        return _bicubic(uv, _grid_numbers(4, (0, 0)), count)
+    creases = creases if any(creases) else (False,) * valence
+    if valence == 4 and not any(creases):
+        return _bicubic(uv, _spread(4, (0, 0), creases, count))
     basis = PatchBasis(*(np.zeros((len(uv), count)) for _ in range(3)))
     corner = uv.max(axis=1) == 0.0
-    for target, mask in zip(basis, _corner_masks(valence), strict=True):
+    step, fine_step = _subdivision(valence, creases)
+    masks = _creased_corner_masks(step, fine_step, creases) if any(creases) else _corner_masks(valence)
+    for target, mask in zip(basis, masks, strict=True):
         target[corner] = mask
-    step, fine_step = _subdivision(valence)
     local, power, left = uv.copy(), np.eye(count), ~corner
     while left.any():
         local = local * 2.0
         now = left & (local.max(axis=1) > 1.0)
-        _evaluate_split(basis, local, now, fine_step @ power, valence)
+        _evaluate_split(basis, local, now, fine_step @ power, creases)
         power, left = step @ power, left & ~now
     return basis
 
 
-def _evaluate_split(basis: PatchBasis, local: Floats, now: Mask, control: Floats, valence: int) -> None:
+def corner_position(creases: tuple[bool, ...]) -> Floats:
+    """Return the weights of the corner and its ring, (2 N + 1,) float, in the corner's limit position.
+
+    `creases` says of each of the N spokes whether it is a crease; at least one is.
+    """
+    n = len(creases)
+    mask = np.zeros(2 * n + 1)
+    if sum(creases) > 2:
+        mask[0] = 1.0
+    elif sum(creases) == 2:
+        mask[0], mask[1::2] = 2.0 / 3.0, np.array(creases) / 6.0
+    else:  # a dart: the mean that subdivision does not change
+        step = _subdivision(n, creases)[0][: 2 * n + 1, : 2 * n + 1]
+        stays = np.concatenate([step.T - np.eye(2 * n + 1), np.ones((1, 2 * n + 1))])
+        mask = np.linalg.lstsq(stays, np.eye(2 * n + 2)[-1], rcond=None)[0]
+    return mask
+
+
+def _evaluate_split(basis: PatchBasis, local: Floats, now: Mask, control: Floats, creases: tuple[bool, ...]) -> None:
     """Fill in samples that lie in one of the three regular quarters of the subdivided patch."""
+    valence = len(creases)
     for quarter in ((1, 0), (1, 1), (0, 1)):
         here = now & ((local > 1.0) == np.array(quarter, dtype=bool)).all(axis=1)
-        fine = _bicubic(local[here] - quarter, _grid_numbers(valence, quarter), 2 * valence + 17)
+        fine = _bicubic(local[here] - quarter, _spread(valence, quarter, creases, 2 * valence + 17))
         for target, weights in zip(basis, fine, strict=True):
             target[here] = weights @ control
 
@@ -95,18 +129,23 @@ _FINE_FAR = (
 )
 
 
-def _grid_numbers(valence: int, quarter: tuple[int, int]) -> Indices:
-    """Return the numbers of the 16 points round a regular quarter, rows j, columns i, (16,) int."""
+def _spread(valence: int, quarter: tuple[int, int], creases: tuple[bool, ...], count: int) -> Floats:
+    """Return the 16 points round a regular quarter, rows j, as means of `count` control points, (16, count)."""
     a, b = quarter
-    return np.array([_number(valence, (a + i, b + j)) for j in range(-1, 3) for i in range(-1, 3)])
+    grid = [[_number(valence, (a + i, b + j)) for i in range(-1, 3)] for j in range(-1, 3)]
+    spread = np.eye(count)[grid]
+    if quarter == (1, 0) and creases[0]:
+        spread[0] = 2.0 * spread[1] - spread[2]
+    if quarter == (0, 1) and creases[1]:
+        spread[:, 0] = 2.0 * spread[:, 1] - spread[:, 2]
+    return spread.reshape(16, count)
 
 
-def _bicubic(uv: Floats, numbers: Indices, count: int) -> PatchBasis:
-    """Return uniform bicubic B-spline weights spread over `count` control points."""
+def _bicubic(uv: Floats, spread: Floats) -> PatchBasis:
+    """Return uniform bicubic B-spline weights of 16 points, spread over the control points that make them."""
     bu, bv = _cubic(uv[:, 0]), _cubic(uv[:, 1])
     du, dv = _cubic_slope(uv[:, 0]), _cubic_slope(uv[:, 1])
-    # a sum, not an assignment: round a corner of valence 2 a point stands in two places of the grid
-    spread = np.eye(count)[numbers]
+    # a product, not an assignment: round a corner of valence 2 a point stands in two places of the grid
     products = ((bu, bv), (du, bv), (bu, dv))
     return PatchBasis(*((v[:, :, None] * u[:, None, :]).reshape(-1, 16) @ spread for u, v in products))
 
@@ -140,7 +179,27 @@ def _corner_masks(valence: int) -> tuple[Floats, Floats, Floats]:
     return position / (n * (n + 5)), along_u, along_v
 
 
-def _subdivision(valence: int) -> tuple[Floats, Floats]:
+def _creased_corner_masks(step: Floats, fine_step: Floats, creases: tuple[bool, ...]) -> tuple[Floats, Floats, Floats]:
+    """Return the weights of limit position and tangents at a corner with creases, each (2 N + 8,).
+
+    The tangents are those that derivatives at the middle of the patch turn into when it shrinks towards the corner.
+    They are made orthonormal, as weights, after each step: then the plane they span and its orientation survive
+    where one of them outgrows the other.
+    """
+    ring = 2 * len(creases) + 1
+    position = np.zeros(len(step))
+    position[:ring] = corner_position(creases)
+    slopes = _bicubic(np.full((1, 2), 0.5), _spread(len(creases), (1, 1), creases, len(fine_step)))
+    tangents = np.concatenate(slopes[1:]) @ fine_step
+    for _ in range(SETTLED):
+        tangents = tangents @ step
+        tangents -= tangents.sum(axis=1, keepdims=True) * position
+        turned, length = np.linalg.qr(tangents.T)
+        tangents = turned.T * np.sign(np.diag(length))[:, None]
+    return position, tangents[0], tangents[1]
+
+
+def _subdivision(valence: int, creases: tuple[bool, ...]) -> tuple[Floats, Floats]:
     """Return Stam's matrices: (2 N + 8, 2 N + 8) to the same points one step finer, (2 N + 17, 2 N + 8) to all."""
     n = valence
     fine = np.zeros((2 * n + 17, 2 * n + 8))
@@ -159,7 +218,28 @@ def _subdivision(valence: int) -> tuple[Floats, Floats]:
     for row, point in enumerate(_FINE_FAR, start=2 * n + 1):
         for column, weight in _regular_rule(n, point):
             fine[row, column] += weight
+    if any(creases):
+        _sharpen(fine, creases)
     return fine[: 2 * n + 8], fine
+
+
+def _sharpen(fine: Floats, creases: tuple[bool, ...]) -> None:
+    """Replace the rules of the points on creases: the corner, ends of spokes, and points beyond e0 and e1."""
+    n = len(creases)
+    spokes = 1 + 2 * np.flatnonzero(creases)
+    fine[spokes] = 0.0
+    fine[spokes, 0] = fine[spokes, spokes] = 0.5
+    if len(spokes) >= 2:
+        fine[0] = 0.0
+        fine[0, 0] = 1.0
+    if len(spokes) == 2:
+        fine[0, 0], fine[0, spokes] = 0.75, 0.125
+    for spoke, (i, j) in ((0, (1, 0)), (1, (0, 1))):
+        for steps in (2, 3) if creases[spoke] else ():
+            row = _number(n, (steps * i, steps * j))
+            fine[row] = 0.0
+            for along, weight in _knot_rule(steps):
+                fine[row, _number(n, (along * i, along * j))] += weight
 
 
 def _regular_rule(valence: int, point: tuple[int, int]) -> list[tuple[int, float]]:

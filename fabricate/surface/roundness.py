@@ -32,5 +32,5 @@ def rounded(quads: QuadMesh) -> QuadMesh:
 
 
 def polygons(quads: QuadMesh) -> PolygonMesh:
-    """Return the same points and quads as a polygon mesh; half-edges keep their numbers."""
-    return PolygonMesh(quads.points, quads.tiles.ravel(), np.arange(0, quads.tiles.size + 1, 4))
+    """Return the same points, quads and creases as a polygon mesh; half-edges keep their numbers."""
+    return PolygonMesh(quads.points, quads.tiles.ravel(), np.arange(0, quads.tiles.size + 1, 4), quads.creases)

@@ -66,6 +66,23 @@ def tiled(mesh: PolygonMesh, *, tile_size: float) -> QuadMesh:
     return quads
 
 
+def divided(mesh: PolygonMesh, *, levels: int) -> QuadMesh:
+    """Return the mesh after `levels` >= 1 Catmull-Clark steps.
+
+    Raises
+    ------
+    PatternError
+        If that is more tiles than memory holds.
+    """
+    tiles = len(mesh.corners) * 4 ** (levels - 1)
+    if tiles > MAX_TILES:
+        raise PatternError(
+            f"{levels} levels of a mesh with {len(mesh.corners)} corners would be {tiles} tiles, "
+            f"more than {MAX_TILES}; ask for a smaller pattern.levels"
+        )
+    return subdivided(mesh, levels=levels)
+
+
 def _miss(quads: QuadMesh, tile_size: float) -> float:
     """Return by how many halvings the median tile side is too long, negative when it is too short."""
     return float(np.log2(float(np.median(tile_sides(quads))) / tile_size))

@@ -26,6 +26,7 @@ class FakeCheck:
 class FakeReport:
     ok: bool = True
     checks: tuple[FakeCheck, ...] = ()
+    name: str = "a"
 
 
 @dataclass
@@ -69,12 +70,12 @@ def config(tmp_path: Path) -> Callable[..., Path]:
     return write
 
 
-def use(monkeypatch: pytest.MonkeyPatch, run: Callable[..., FakeReport]) -> None:
+def use(monkeypatch: pytest.MonkeyPatch, run: Callable[..., tuple[FakeReport, ...]]) -> None:
     monkeypatch.setattr(workers, "run", run)
 
 
 def outcome_of(path: Path, monkeypatch: pytest.MonkeyPatch, report: FakeReport) -> Outcome:
-    use(monkeypatch, lambda *_, **__: report)
+    use(monkeypatch, lambda *_, **__: (report,))
     (outcome,) = run_all([path], out=Path("out"), overrides=(), jobs=1, listener=Log())
     return outcome
 
@@ -84,11 +85,11 @@ def test_a_run_gets_its_config_name_folder_and_listener(
 ) -> None:
     seen = []
 
-    def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]) -> FakeReport:
+    def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]) -> tuple[FakeReport, ...]:
         progress("read")
         progress("checks")
         seen.append((config.pattern.seed, name, out))
-        return FakeReport()
+        return (FakeReport(),)
 
     use(monkeypatch, run)
     log = Log()
@@ -117,7 +118,7 @@ def test_a_skipped_check_is_not_a_passed_one(config: Callable[..., Path], monkey
 def test_a_bad_config_does_not_stop_the_others(
     config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch, jobs: int
 ) -> None:
-    use(monkeypatch, lambda *_, **__: FakeReport())
+    use(monkeypatch, lambda *_, **__: (FakeReport(),))
     good, missing = config("good"), Path("none.toml")
     paths = [missing, good] if jobs == 1 else [config("dup/good"), good]  # one that is left runs right here
     outcomes = run_all(paths, out=Path("out"), overrides=(), jobs=jobs, listener=Log())
@@ -125,7 +126,7 @@ def test_a_bad_config_does_not_stop_the_others(
 
 
 def test_a_mesh_that_cannot_be_used_is_an_outcome(config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
-    def run(*_: object, **__: object) -> FakeReport:
+    def run(*_: object, **__: object) -> tuple[FakeReport, ...]:
         raise MeshError("open boundary of 4 edges")
 
     use(monkeypatch, run)
@@ -146,7 +147,7 @@ def test_a_mistake_in_the_program_is_not_hidden_and_names_its_config(
 def test_parts_too_fine_for_the_memory_are_an_outcome(
     config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def run(*_: object, **__: object) -> FakeReport:
+    def run(*_: object, **__: object) -> tuple[FakeReport, ...]:
         raise MemoryError
 
     use(monkeypatch, run)
@@ -159,7 +160,7 @@ def test_two_configs_with_one_name_do_not_overwrite_each_other(
     config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     names = []
-    use(monkeypatch, lambda *_, name, **__: names.append(name) or FakeReport())
+    use(monkeypatch, lambda *_, name, **__: names.append(name) or (FakeReport(),))
     paths = [config("one/a"), config("b"), config("two/a"), config("b")]
     outcomes = run_all(paths, out=Path("out"), overrides=(), jobs=1, listener=Log())
     assert names == ["a", "b"]
@@ -187,3 +188,10 @@ def test_a_run_that_is_killed_takes_no_other_with_it(config: Callable[..., Path]
     assert [outcome.name for outcome in outcomes] == ["a", "deadly", "b", "c"]
     assert ["the run was killed" in outcome.message for outcome in outcomes] == [False, True, False, False]
     assert len(log.outcomes) == len(outcomes)
+
+
+def test_several_bodies_are_told_by_name(config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    bad = FakeReport(False, (FakeCheck(ok=False, message="too thin"),), name="a-2")
+    use(monkeypatch, lambda *_, **__: (FakeReport(name="a-1"), bad))
+    (outcome,) = run_all([config("a")], out=Path("out"), overrides=(), jobs=1, listener=Log())
+    assert outcome == Outcome("a", 1, "a-1: ok; a-2: too thin")

@@ -51,7 +51,7 @@ def report(
         name="torus",
         config_sha256="abc",
         versions={"fabricate": "0.1.0", "numpy": "2"},
-        mesh=MeshFacts(8, 6, 0, (10.0, 20.0, 30.0)),
+        mesh=MeshFacts(8, 6, 0, (10.0, 20.0, 30.0), {"faces flipped": 2}, (), None),
         pattern=PatternFacts(
             tiles=24,
             tile_size_mm=7.0,
@@ -81,7 +81,10 @@ def test_keys_are_those_of_the_contract() -> None:
     assert list(found) == [
         "name", "ok", "config_sha256", "versions", "mesh", "pattern", "parts", "fit", "checks", "seconds",
     ]  # fmt: skip
-    assert found["mesh"] == {"vertices": 8, "faces": 6, "genus": 0, "size_mm": [10, 20, 30]}
+    assert found["mesh"] == {
+        "vertices": 8, "faces": 6, "genus": 0, "size_mm": [10, 20, 30],
+        "repairs": {"faces flipped": 2}, "notes": [], "distance_mm": None,
+    }  # fmt: skip
     assert set(found["pattern"]) >= {
         "tiles", "curves", "regions", "curve_length_mm", "area_share", "handles", "neck_mm",
     }  # fmt: skip

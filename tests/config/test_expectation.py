@@ -21,9 +21,10 @@ FIELDS = {
         ("TorusConfig.tube", "a number, more than 0, less than 1"),
         ("KnotConfig.tube", "a number, at least 0.05, at most 0.76"),
         ("FileConfig.path", "text"),
-        ("PatternConfig.tile_size", "a length, more than 0 mm"),
+        ("PatternConfig.tile_size", '"auto" or a length, more than 0 mm'),
         ("PatternConfig.levels", "a whole number, at least 0, at most 12"),
         ("PatternConfig.arc", "a number, more than 0.293, less than 0.707"),
+        ("PrepareConfig.crease", "an angle, at least 0 deg, at most 180 deg"),
         ("SolidConfig.core", 'one of "hollow", "blue", "yellow"'),
     ],
 )

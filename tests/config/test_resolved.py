@@ -19,7 +19,7 @@ from fabricate.config import (
     TorusConfig,
     load_config,
 )
-from fabricate.config.resolved import config_sha256, resolved_toml
+from fabricate.config.resolved import config_sha256, moved_config, resolved_toml
 from fabricate.config.section import ConfigFolder
 
 SIZES = st.floats(min_value=50, max_value=10_000)
@@ -94,3 +94,21 @@ def test_a_mesh_file_is_written_as_it_was_given(tmp_path: Path) -> None:
     text = resolved_toml(load_config(path))
     assert 'path = "models/spot.obj"' in text
     assert str(tmp_path) not in text
+
+
+def test_a_config_in_another_folder_finds_the_same_mesh(tmp_path: Path) -> None:
+    path = tmp_path / "configs" / "some.toml"
+    path.parent.mkdir()
+    path.write_text('[source]\npath = "../models/spot.obj"')
+    config = load_config(path)
+    moved = tmp_path / "outputs" / "some" / "config.toml"
+    moved.parent.mkdir(parents=True)
+    moved.write_text(resolved_toml(moved_config(config, moved.parent)))
+    again = load_config(moved).source
+    assert isinstance(again, FileConfig)
+    assert again.file.resolve() == (tmp_path / "models" / "spot.obj").resolve()
+
+
+def test_a_shape_is_the_same_everywhere(tmp_path: Path) -> None:
+    config = Config(source=TorusConfig())
+    assert moved_config(config, tmp_path) is config

@@ -9,9 +9,11 @@ from fabricate.config.schema import json_schema
 def test_the_schema_shows_configs_as_they_are_written() -> None:
     schema: dict[str, Any] = json.loads(json.dumps(json_schema()))
     pattern = schema["$defs"]["PatternConfig"]["properties"]
-    assert (pattern["tile_size"]["type"], pattern["tile_size"]["default"]) == ("string", "7 mm")
+    tile_size = pattern["tile_size"]
+    assert (tile_size["anyOf"][0]["const"], tile_size["anyOf"][1]["type"]) == ("auto", "string")
+    assert tile_size["default"] == "7 mm"
     assert (pattern["levels"]["type"], pattern["levels"]["maximum"]) == ("integer", 12)
     assert "default" not in pattern["levels"]
     assert "null" not in json.dumps(schema)
-    assert {"source", "pattern", "solid", "process"} == set(schema["properties"])
+    assert {"source", "prepare", "pattern", "solid", "process"} == set(schema["properties"])
     assert all(not each.get("additionalProperties", True) for each in schema["$defs"].values())

@@ -1,7 +1,10 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from creases import creased_surfaces, prism
 from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import HANDLES, face_lists, named, polyhedra, seeds, surfaces
@@ -9,13 +12,15 @@ from polyhedra import HANDLES, face_lists, named, polyhedra, seeds, surfaces
 from fabricate.duotone.catmull_clark import catmull_clark, subdivided
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.mesh.closed import checked_closed, genus
+from fabricate.mesh.half_edges import half_edges
 from fabricate.mesh.polygon_mesh import PolygonMesh
 
 MESHES = surfaces()
+CREASED = creased_surfaces()
 
 
 def as_polygons(quads: QuadMesh) -> PolygonMesh:
-    return PolygonMesh.from_faces(quads.points, quads.tiles.tolist())
+    return replace(PolygonMesh.from_faces(quads.points, quads.tiles.tolist()), creases=quads.creases)
 
 
 def edge_count(mesh: PolygonMesh) -> int:
@@ -23,7 +28,7 @@ def edge_count(mesh: PolygonMesh) -> int:
 
 
 def naive(mesh: PolygonMesh) -> tuple[np.ndarray, list[list[int]]]:
-    """Subdivide with dictionaries, face by face, after the rules in Catmull and Clark's paper."""
+    """Subdivide with dictionaries, face by face, after the rules of Catmull and Clark, and of DeRose and others."""
     faces = face_lists(mesh)
     old = mesh.points
     centres = [np.mean([old[p] for p in face], axis=0) for face in faces]
@@ -38,14 +43,20 @@ def naive(mesh: PolygonMesh) -> tuple[np.ndarray, list[list[int]]]:
         for point in edge:
             edges_at_point.setdefault(point, []).append(edge)
 
+    heads = mesh.corners[mesh.next_corner]
+    sharp = set(map(frozenset, np.stack([mesh.corners, heads], axis=1)[mesh.creases].tolist()))
     new_vertices = []
     for point in range(len(old)):
+        beyond = [old[other] for edge in edges_at_point[point] if edge in sharp for other in edge - {point}]
+        if len(beyond) >= 2:
+            new_vertices.append((6 * old[point] + beyond[0] + beyond[1]) / 8 if len(beyond) == 2 else old[point])
+            continue
         n = len(edges_at_point[point])
         around = np.mean([centres[face] for face in faces_at_point[point]], axis=0)
         middles = np.mean([np.mean([old[p] for p in edge], axis=0) for edge in edges_at_point[point]], axis=0)
         new_vertices.append((around + 2 * middles + (n - 3) * old[point]) / n)
     new_edges = [
-        np.mean([*(old[p] for p in edge), *(centres[face] for face in beside)], axis=0)
+        np.mean([*(old[p] for p in edge), *(centres[face] for face in ([] if edge in sharp else beside))], axis=0)
         for edge, beside in faces_at_edge.items()
     ]
     number_of = {edge: len(old) + len(faces) + k for k, edge in enumerate(faces_at_edge)}
@@ -77,6 +88,55 @@ def test_agrees_with_the_rules_on_quads_too(mesh: PolygonMesh) -> None:
     twice = catmull_clark(once).mesh
     assert twice.tiles.tolist() == quads
     np.testing.assert_allclose(twice.points, points, atol=1e-13)
+
+
+@given(mesh=CREASED)
+def test_agrees_with_the_rules_for_creases(mesh: PolygonMesh) -> None:
+    once = catmull_clark(mesh).mesh
+    points, quads = naive(mesh)
+    assert once.tiles.tolist() == quads
+    np.testing.assert_allclose(once.points, points, atol=1e-13)
+    points, quads = naive(as_polygons(once))
+    twice = catmull_clark(once).mesh
+    assert twice.tiles.tolist() == quads
+    np.testing.assert_allclose(twice.points, points, atol=1e-13)
+
+
+@given(mesh=CREASED)
+def test_creases_go_on_along_both_halves_of_their_edge(mesh: PolygonMesh) -> None:
+    quads = catmull_clark(mesh).mesh
+    assert quads.creases.sum() == 2 * mesh.creases.sum()
+    assert (quads.creases == quads.creases[quads.twins]).all()
+    old = np.bincount(mesh.corners[mesh.creases], minlength=len(mesh.points))
+    assert (quads.crease_counts[: len(old)] == old).all()
+    assert set(quads.crease_counts[len(old) :].tolist()) <= {0, 2}
+    ends = quads.tiles.ravel(), np.roll(quads.tiles, -1, axis=1).ravel()
+    assert all((end[quads.creases] < len(old)).sum() == mesh.creases.sum() for end in ends)
+
+
+@given(mesh=MESHES)
+def test_where_everything_is_a_crease_points_are_inserted_and_none_moved(mesh: PolygonMesh) -> None:
+    quads = catmull_clark(replace(mesh, creases=np.ones(len(mesh.corners), dtype=bool))).mesh
+    held = quads.crease_counts[: len(mesh.points)] > 2
+    assert (quads.points[: len(mesh.points)][held] == mesh.points[held]).all()
+    middles = (mesh.points[mesh.corners] + mesh.points[mesh.corners[mesh.next_corner]]) / 2
+    np.testing.assert_allclose(quads.points[quads.tiles[:, 1]], middles, atol=1e-15)
+
+
+@given(mesh=CREASED)
+def test_a_single_crease_changes_only_its_own_edge_point(mesh: PolygonMesh) -> None:
+    edge = half_edges(mesh).edge
+    smooth, one = (replace(mesh, creases=edge == number) for number in (-1, 0))
+    moved = (catmull_clark(smooth).mesh.points != catmull_clark(one).mesh.points).any(axis=1)
+    assert np.flatnonzero(moved).tolist() in ([], [len(mesh.points) + len(mesh.offsets) - 1])
+
+
+def test_flat_caps_between_creases_stay_flat_and_their_rims_straight_up() -> None:
+    quads = subdivided(prism(7, height=2.0), levels=3)
+    rims = quads.crease_counts == 2
+    assert rims.sum() == 2 * 7 * 8
+    np.testing.assert_allclose(np.abs(quads.points[rims, 2]), 1, atol=1e-15)
+    assert np.isclose(np.abs(quads.points[:, 2]), 1, atol=1e-15).sum() > 2 * 7 * 16
 
 
 @given(mesh=MESHES)
@@ -122,7 +182,7 @@ def test_twins_are_involutive_and_run_opposite(mesh: PolygonMesh) -> None:
         assert (found.tail[found.following[quads.twins]] == found.tail).all()
 
 
-@given(mesh=MESHES)
+@given(mesh=st.one_of(MESHES, CREASED))
 def test_matrix_makes_the_points_and_its_rows_are_means(mesh: PolygonMesh) -> None:
     quads, matrix = catmull_clark(mesh)
     assert matrix.shape == (len(quads.points), len(mesh.points))
@@ -131,7 +191,7 @@ def test_matrix_makes_the_points_and_its_rows_are_means(mesh: PolygonMesh) -> No
     assert matrix.min() >= 0
 
 
-@given(mesh=MESHES, seed=seeds)
+@given(mesh=st.one_of(MESHES, CREASED), seed=seeds)
 def test_subdivision_follows_every_affine_map(mesh: PolygonMesh, seed: int) -> None:
     rng = np.random.default_rng(seed)
     linear, shift = rng.normal(size=(3, 3)), rng.normal(size=3)

@@ -6,6 +6,7 @@ from itertools import pairwise
 import networkx as nx
 import numpy as np
 import pytest
+from creases import SHARES, creased_quad_meshes, with_random_creases
 from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import beads, directed_edges, face_lists, polyhedra, quad_meshes, seeds, surfaces, tetrahedron
@@ -21,6 +22,11 @@ from fabricate.mesh.torus import torus
 
 EVEN = st.integers(2, 6).map(lambda half: 2 * half)
 ODD = st.integers(1, 5).map(lambda half: 2 * half + 1)
+
+
+def crease_lines(points: np.ndarray, tail: np.ndarray, head: np.ndarray) -> set[tuple[float, ...]]:
+    """Return where the directed edges run, whatever their numbers."""
+    return {tuple(place) for place in np.hstack([points[tail], points[head]]).tolist()}
 
 
 def relabelled(mesh: PolygonMesh, seed: int) -> PolygonMesh:
@@ -136,7 +142,35 @@ def test_sphere_has_no_handle(mesh: PolygonMesh) -> None:
     assert subdivided(mesh, levels=1).genus == 0
 
 
-@pytest.mark.parametrize("name", ["points", "tiles", "twins", "yellow"])
+@given(divisions=st.integers(1, 4), share=SHARES, seed=seeds)
+def test_creases_stay_on_their_edges_when_quads_are_turned(divisions: int, share: float, seed: int) -> None:
+    mesh = with_random_creases(relabelled(cube(divisions=divisions), seed), share=share, seed=seed)
+    quads = two_coloured(mesh)
+    connectivity = quads.half_edges
+    head = connectivity.tail[connectivity.following]
+    found = crease_lines(quads.points, connectivity.tail[quads.creases], head[quads.creases])
+    wanted = crease_lines(mesh.points, mesh.corners[mesh.creases], mesh.corners[mesh.next_corner][mesh.creases])
+    assert found == wanted
+    assert (quads.creases == quads.creases[quads.twins]).all()
+
+
+@given(quads=creased_quad_meshes())
+def test_crease_counts_are_degrees_in_the_graph_of_creases(quads: QuadMesh) -> None:
+    connectivity = quads.half_edges
+    ends = np.stack([connectivity.tail, connectivity.tail[connectivity.following]], axis=1)
+    first = quads.creases & (np.arange(len(quads.twins)) < quads.twins)
+    graph = nx.MultiGraph(ends[first].tolist())
+    assert quads.crease_counts.tolist() == [graph.degree(k) if k in graph else 0 for k in range(len(quads.points))]
+
+
+def test_without_being_told_no_side_is_a_crease() -> None:
+    quads = two_coloured(cube(divisions=2))
+    assert quads.creases.shape == quads.twins.shape
+    assert not quads.creases.any()
+    assert not quads.crease_counts.any()
+
+
+@pytest.mark.parametrize("name", ["points", "tiles", "twins", "yellow", "creases"])
 def test_arrays_are_frozen(name: str) -> None:
     quads = two_coloured(cube(divisions=1))
     with pytest.raises(ValueError, match="read-only"):
@@ -149,3 +183,5 @@ def test_arrays_that_do_not_fit_each_other_are_an_error() -> None:
         QuadMesh(quads.points, quads.tiles, quads.twins[:-1], quads.yellow)
     with pytest.raises(ValueError, match=r"shape \(8\), found \(7,\)"):
         QuadMesh(quads.points, quads.tiles, quads.twins, quads.yellow[:-1])
+    with pytest.raises(ValueError, match=r"shape \(24\), found \(1,\)"):
+        QuadMesh(quads.points, quads.tiles, quads.twins, quads.yellow, np.ones(1, dtype=bool))

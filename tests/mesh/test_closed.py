@@ -16,9 +16,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fabricate.errors import FabricateError, MeshError
+from fabricate.formats.reading import read_mesh
 from fabricate.mesh.closed import checked_closed, genus, signed_volume
 from fabricate.mesh.polygon_mesh import PolygonMesh
-from fabricate.mesh.reading import read_mesh
 
 CORPUS = os.environ.get("FABRICATE_CORPUS")
 GOOD = sorted(Path(CORPUS, "good").iterdir()) if CORPUS else []

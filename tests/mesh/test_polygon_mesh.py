@@ -4,10 +4,12 @@ from dataclasses import FrozenInstanceError
 
 import numpy as np
 import pytest
+from creases import creased_surfaces
 from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import face_lists, surfaces
 
+from fabricate.mesh.cube import cube
 from fabricate.mesh.polygon_mesh import PolygonMesh
 
 MESHES = surfaces()
@@ -63,7 +65,25 @@ def test_moved_leaves_the_original_alone(mesh: PolygonMesh) -> None:
     assert moved.corners is mesh.corners
 
 
-@pytest.mark.parametrize("name", ["points", "corners", "offsets"])
+@given(mesh=MESHES)
+def test_without_being_told_no_edge_is_a_crease(mesh: PolygonMesh) -> None:
+    assert mesh.creases.shape == mesh.corners.shape
+    assert not PolygonMesh(mesh.points, mesh.corners, mesh.offsets).creases.any()
+
+
+@given(mesh=creased_surfaces(), factor=st.floats(0.1, 10))
+def test_creases_stay_when_points_move(mesh: PolygonMesh, factor: float) -> None:
+    assert mesh.scaled(factor).creases is mesh.creases
+    assert mesh.moved(mesh.points + 1.0).creases is mesh.creases
+
+
+def test_creases_that_are_not_one_for_each_corner_are_an_error() -> None:
+    mesh = cube(divisions=1)
+    with pytest.raises(ValueError, match=r"shape \(24\), found \(23,\)"):
+        PolygonMesh(mesh.points, mesh.corners, mesh.offsets, np.ones(23, dtype=bool))
+
+
+@pytest.mark.parametrize("name", ["points", "corners", "offsets", "creases"])
 def test_arrays_are_frozen(name: str) -> None:
     mesh = PolygonMesh.from_faces(np.zeros((3, 3)), [[0, 1, 2]])
     with pytest.raises(ValueError, match="read-only"):

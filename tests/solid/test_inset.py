@@ -8,7 +8,7 @@ import pytest
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
-from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, relaxed, retreated, slid
+from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, downward, relaxed, retreated, slid
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -38,18 +38,18 @@ def one(surface: CutSurface, number: int = 40) -> np.ndarray:
 
 
 def test_a_thick_body_gets_the_whole_thickness(ball: CutSurface) -> None:
-    assert (capped_depth(ball, thickness=DEPTH, between=0.3) == DEPTH).all()
+    assert (capped_depth(ball, -ball.normals, thickness=DEPTH, between=0.3) == DEPTH).all()
 
 
 def test_two_walls_and_what_is_between_them_fit_into_a_thin_body(ball: CutSurface) -> None:
-    depth = capped_depth(ball, thickness=30.0, between=4.0)
+    depth = capped_depth(ball, -ball.normals, thickness=30.0, between=4.0)
     radius = np.linalg.norm(ball.points, axis=1)
     assert depth.max() <= radius.max() - 4.0 / 2
     assert depth.min() >= 0.9 * radius.min() - 4.0 / 2
 
 
 def test_depth_changes_gently(surface: CutSurface) -> None:
-    depth = capped_depth(surface, thickness=12.0, between=1.0)
+    depth = capped_depth(surface, -surface.normals, thickness=12.0, between=1.0)
     assert np.ptp(depth) > 0.1
     for k in range(3):
         begin, end = surface.triangles[:, k], surface.triangles[:, k - 1]
@@ -58,7 +58,9 @@ def test_depth_changes_gently(surface: CutSurface) -> None:
 
 
 def test_even_a_hopeless_body_keeps_a_tenth(ball: CutSurface) -> None:
-    assert capped_depth(ball, thickness=DEPTH, between=100.0) == pytest.approx(np.full(len(ball.points), 0.1 * DEPTH))
+    assert capped_depth(ball, -ball.normals, thickness=DEPTH, between=100.0) == pytest.approx(
+        np.full(len(ball.points), 0.1 * DEPTH)
+    )
 
 
 def test_sliding_keeps_every_depth_and_all_that_is_far(surface: CutSurface) -> None:
@@ -74,7 +76,7 @@ def test_relaxing_flattens_a_spike_and_leaves_what_is_far(surface: CutSurface) -
     means = neighbour_means(surface.triangles, count=len(surface.points))
     inner, faulty = under(surface), one(surface)
     spiky = inner + 1.5 * faulty[:, None] * surface.normals
-    flat = relaxed(spiky, faulty, means)
+    flat = relaxed(surface, spiky, faulty, means)
     assert np.linalg.norm((flat - inner)[faulty]) < 0.5 * np.linalg.norm((spiky - inner)[faulty])
     assert (flat == spiky)[~grown(faulty, means, 3)].all()
 
@@ -105,7 +107,25 @@ def test_nothing_faulty_moves_nothing(surface: CutSurface, kind: str) -> None:
     inner, none = under(surface), np.zeros(len(surface.points), dtype=bool)
     result = {
         "slid": lambda: slid(surface, inner, none, means),
-        "relaxed": lambda: relaxed(inner, none, means),
+        "relaxed": lambda: relaxed(surface, inner, none, means),
         "retreated": lambda: retreated(surface, inner, none, means, safe=surface.points),
     }[kind]()
     assert (result == inner).all()
+
+
+def test_the_way_down_is_against_the_normal_where_the_surface_is_smooth(surface: CutSurface) -> None:
+    assert downward(surface, -1.5 * surface.normals) == pytest.approx(-1.5 * surface.normals)
+
+
+def test_the_way_down_goes_in_through_triangles_that_the_normal_leaves(surface: CutSurface) -> None:
+    tilted, number = surface.normals.copy(), one(surface).argmax()
+    tangent = surface.points[surface.triangles[(surface.triangles == number).any(axis=1)][0]].mean(axis=0)
+    tangent = tangent - surface.points[number]
+    tilted[number] = 0.1 * surface.normals[number] + tangent / np.linalg.norm(tangent)
+    tilted[number] /= np.linalg.norm(tilted[number])
+    way = downward(surface, -tilted)
+    facets = surface.points[surface.triangles[(surface.triangles == number).any(axis=1)]]
+    normals = np.cross(facets[:, 1] - facets[:, 0], facets[:, 2] - facets[:, 0])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    assert (normals @ tilted[number]).min() < 0.1
+    assert (normals @ way[number]).max() <= -0.29

@@ -17,6 +17,7 @@ from polyhedra import seeds
 from fabricate.duotone.certificate import Certificate, certified
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.errors import SolidError
+from fabricate.mesh.crease import creased
 from fabricate.mesh.cube import cube
 from fabricate.mesh.pierced import double_torus
 from fabricate.mesh.polygon_mesh import PolygonMesh
@@ -209,7 +210,7 @@ def test_same_input_same_bytes(made: Callable[..., Made]) -> None:
         (float("nan"), 0.3, "thickness must be positive, found nan mm"),
         (2.0, -0.1, "clearance must not be negative, found -0.1 mm"),
         (2.0, float("nan"), "clearance must not be negative, found nan mm"),
-        (2.0, 30.0, "smaller solid.clearance or a larger pattern.tile_size"),
+        (2.0, 30.0, "a smaller solid.clearance, a larger pattern.tile_size"),
     ],
 )
 def test_impossible_sizes_are_refused(thickness: float, clearance: float, words: str) -> None:
@@ -249,6 +250,31 @@ def test_every_tree_gives_two_sound_parts(seed: int, arc: float, clearance: floa
     assert tuple(genus(part) for part in found.solids.parts) == (2 * handles[0], 2 * handles[1])
     if clearance > 0.0:
         assert yellow.min_gap(blue, 2 * clearance) >= 0.95 * clearance
+
+
+@pytest.mark.parametrize(
+    ("divisions", "clearance", "core"), [(1, 0.3, "hollow"), (3, 0.0, "hollow"), (5, 0.4, "yellow")]
+)
+def test_a_cube_with_sharp_edges_is_exact_and_its_wall_mitred(divisions: int, clearance: float, core: Core) -> None:
+    mesh = sized(creased(cube(divisions=divisions), angle=40.0), size=60)
+    duotone = grown_duotone(tiled(mesh, tile_size=9), tree="random", seed=5)
+    surface = fitted_cut(duotone, tolerance=0.1, clearance=clearance)
+    made = solids(surface, thickness=THICKNESS, clearance=clearance, core=core)
+    for part in made.parts:
+        away = np.abs(part.points).max(axis=1)
+        outer = away > 30 - THICKNESS / 2
+        facets = part.triangles[outer[part.triangles].all(axis=1)]
+        middles = np.concatenate([part.points[facets[:, [k, (k + 1) % 3]]].mean(axis=1) for k in range(3)])
+        for found in (away[outer], np.abs(middles).max(axis=1), np.abs(part.points[facets].mean(axis=1)).max(axis=1)):
+            np.testing.assert_allclose(found, 30, rtol=0, atol=1e-5)
+        assert away[~outer].max() == pytest.approx(30 - THICKNESS, abs=1e-5)
+        assert crossings(part) == 0
+    yellow, blue = map(as_manifold, made.parts)
+    assert (yellow ^ blue).volume() == pytest.approx(0.0, abs=1e-6)
+    if clearance > 0.0:
+        assert yellow.min_gap(blue, 2 * clearance) >= 0.95 * clearance
+    if core == "hollow":
+        assert volume(made.spaces[1]) == pytest.approx(60**3 - 56**3, rel=1e-6)
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import networkx as nx
@@ -16,6 +17,7 @@ from fabricate.duotone.curve import traced_arcs
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.spanning_tree import random_duotone
 from fabricate.errors import PatternError
+from fabricate.mesh.crease import creased
 from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface, limit_vertices
@@ -229,7 +231,43 @@ def test_arcs_with_many_digits_leave_no_crack(millionths: int, resolution: int) 
     assert len(surface.points) - surface.triangles.size // 6 == 2
 
 
-@pytest.mark.parametrize("name", ["points", "normals", "triangles", "yellow", "curve", "rays", "order"])
+CREASED = random_duotone(subdivided(creased(HANDLES["even torus"][0], angle=0.0), levels=2), seed=1)
+
+
+def test_with_creases_only_their_points_have_mitres() -> None:
+    surface, quads = cut_up(CREASED), CREASED.quads
+    per_side = surface.rays.shape[2] - 2
+    # each crease has its own points and shares its ends with others
+    on_creases = quads.creases.sum() // 2 * per_side + (quads.crease_counts > 1).sum()
+    assert (surface.mitre > 1.0).sum() == on_creases
+    assert (surface.mitre >= 1.0).all()
+    np.testing.assert_allclose(np.linalg.norm(surface.normals, axis=1), 1, rtol=1e-12)
+
+
+def test_mitred_normals_lead_out_of_every_triangle_around() -> None:
+    surface = cut_up(CREASED, resolution=6)
+    a, b, c = np.moveaxis(surface.points[surface.triangles], 1, 0)
+    facet = np.cross(b - a, c - a)
+    facet /= np.linalg.norm(facet, axis=1, keepdims=True)
+    outward = (surface.mitre[:, None] * surface.normals)[surface.triangles]
+    depth = np.einsum("tj,tkj->tk", facet, outward)
+    np.testing.assert_allclose(depth, 1, atol=1e-6)
+
+
+def test_a_surface_made_without_mitres_has_none() -> None:
+    surface = cut_up(SPHERE)
+    bare = CutSurface(
+        *(getattr(surface, name) for name in ("points", "normals", "triangles", "yellow", "curve", "rays", "order"))
+    )
+    assert bare.mitre.tolist() == [1.0] * len(surface.points)
+    assert not bare.along.any()
+    with pytest.raises(ValueError, match="shape"):
+        replace(surface, mitre=np.ones(3))
+
+
+@pytest.mark.parametrize(
+    "name", ["points", "normals", "triangles", "yellow", "curve", "rays", "order", "mitre", "along"]
+)
 def test_arrays_are_frozen(name: str) -> None:
     with pytest.raises(ValueError, match="read-only"):
         getattr(cut_up(SPHERE), name)[0] = 0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -69,7 +71,8 @@ def test_the_size_it_had_does_not_matter(scale: float) -> None:
 
 
 def test_polygons_are_the_quads_with_their_half_edges() -> None:
-    quads = quads_of("hexagons")
+    smooth = quads_of("hexagons")
+    quads = replace(smooth, creases=smooth.half_edges.edge % 3 == 0)
     mesh = polygons(quads)
     assert isinstance(mesh, PolygonMesh)
     assert checked_closed(mesh) is mesh
@@ -77,5 +80,5 @@ def test_polygons_are_the_quads_with_their_half_edges() -> None:
     for name in ("tail", "following", "preceding", "face", "twin"):
         np.testing.assert_array_equal(getattr(connectivity, name), getattr(quads.half_edges, name))
     again = two_coloured(mesh)
-    for name in ("points", "tiles", "twins", "yellow"):
+    for name in ("points", "tiles", "twins", "yellow", "creases"):
         np.testing.assert_array_equal(getattr(again, name), getattr(quads, name))

@@ -11,6 +11,7 @@ from polyhedra import named, polyhedra
 from fabricate.duotone.catmull_clark import catmull_clark, subdivided
 from fabricate.duotone.quad_mesh import two_coloured
 from fabricate.errors import PatternError
+from fabricate.mesh.crease import creased
 from fabricate.mesh.cube import cube
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.torus import torus
@@ -52,6 +53,20 @@ def test_shape_is_kept() -> None:
     factor = larger.points[0] / mesh.points[0]
     np.testing.assert_allclose(larger.points, mesh.points * factor, rtol=1e-12)
     assert larger.corners is mesh.corners
+
+
+def test_a_cube_with_sharp_edges_is_as_wide_as_its_cage() -> None:
+    mesh = sized(creased(cube(divisions=1), angle=40.0), size=60.0)
+    np.testing.assert_allclose(np.abs(mesh.points), 30, rtol=1e-14)
+    assert mesh.creases.all()
+    np.testing.assert_allclose(dense_box(mesh), 60, rtol=1e-12)
+
+
+def test_tiles_of_a_cube_with_sharp_edges_are_squares_with_creases_on_its_edges() -> None:
+    quads = tiled(sized(creased(cube(divisions=3), angle=40.0), size=60.0), tile_size=10.0)
+    np.testing.assert_allclose(tile_sides(quads), 10, rtol=1e-12)
+    assert quads.creases.sum() == 2 * 12 * 6
+    assert np.bincount(quads.crease_counts).tolist() == [6 * 5 * 5, 0, 12 * 5, 8]
 
 
 def test_torus_is_as_wide_as_its_formula_says() -> None:

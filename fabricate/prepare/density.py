@@ -1,0 +1,95 @@
+"""The finest tile that a process can print, and what keeps it from being finer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fabricate.errors import PrepareError
+
+NARROWING = 1.3
+"""How much wider the neck of a typical tile must be than the narrowest that prints, as tiles vary.
+
+Of remeshed scans and machine parts the tile at the 5th percentile has 0.77 of the median's side where the body is
+not thin: 19 of 20 necks are then wide enough.
+"""
+
+FEWEST_TILES = 8
+"""A body is divided into at least so many tiles along its longest side: a ball then has about 200."""
+
+
+@dataclass(frozen=True)
+class Density:
+    """A tile size, mm, and a sentence that names what bound it."""
+
+    tile_size: float
+    limit: str
+
+
+def finest_tile(
+    feature: float,
+    clearance: float,
+    *,
+    extent: float,
+    arc: float = 0.5,
+    margin: float = NARROWING,
+) -> Density:
+    """Return the finest tile whose necks a process can print.
+
+    On a flat square tile of side s the narrower colour has a neck of (sqrt 2 - 2 max(r, 1 - r)) s where it is joined
+    across the tile (Garigipati 2013, 3.3), 0.414 s at r = 1/2. It has to leave the smallest feature when the
+    clearance is taken off.
+
+    Parameters
+    ----------
+    feature : float
+        Smallest feature that the process prints, mm.
+    clearance : float
+        Gap between facing walls, mm; half of it is taken off either side of a neck.
+    extent : float
+        Longest side of the body, mm: with tiles larger than 1/8 of it there would be no pattern.
+    arc : float
+        Position r of the curve on tile edges, between 0.293 and 0.707.
+    margin : float
+        How much wider than the narrowest neck that prints the neck of a tile of this size shall be.
+
+    Raises
+    ------
+    PrepareError
+        If the arc leaves one colour without a neck, or a length is not positive (a clearance may be 0).
+    """
+    if not (feature > 0.0 and clearance >= 0.0 and extent > 0.0 and margin > 0.0):
+        raise PrepareError(
+            "the finest tile needs a positive feature, extent and margin and a clearance of 0 or more, found "
+            f"{feature:g} mm, {extent:g} mm, {margin:g} and {clearance:g} mm"
+        )
+    neck = neck_share(arc)
+    largest = extent / FEWEST_TILES
+    finest = margin * (feature + clearance) / neck
+    if finest > largest:
+        return Density(
+            largest,
+            f"tiles are {largest:.3g} mm, 1/{FEWEST_TILES} of the body's {extent:.4g} mm, though the process asks for "
+            f"{finest:.3g} mm: necks will be too narrow, ask for a larger source.size",
+        )
+    what = "clearance" if clearance > feature else "process's smallest feature"
+    return Density(
+        finest,
+        f"tiles are {finest:.3g} mm because of the {what}: a neck, {neck:.3g} of a tile, must leave {feature:g} mm "
+        f"when the clearance of {clearance:g} mm is taken off, with a margin of {margin - 1.0:.0%} as tiles vary",
+    )
+
+
+def neck_share(arc: float) -> float:
+    """Return the neck of the narrower colour across a square tile of side 1, from the position of its arcs.
+
+    Raises
+    ------
+    PrepareError
+        If opposite arcs meet, which is where the position is not between 0.293 and 0.707.
+    """
+    share = float(np.sqrt(2.0)) - 2.0 * max(arc, 1.0 - arc)
+    if not share > 0.0:
+        raise PrepareError(f"pattern.arc must be between 0.293 and 0.707 for both colours to have necks, found {arc:g}")
+    return share

@@ -1,0 +1,39 @@
+"""The cut of new cells with the detail of the surface that they were made for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from fabricate.duotone.duotone import Duotone
+from fabricate.prepare.triangle_mesh import TriangleMesh
+from fabricate.solid.settling import settled
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.detail import carried
+from fabricate.surface.detail_resolution import detail_resolution
+from fabricate.surface.limit import LimitSurface
+from fabricate.surface.resolution import resolution_for
+from fabricate.surface.sizing import tile_sides
+
+
+def detailed_cut(duotone: Duotone, onto: TriangleMesh, *, arc: float, tolerance: float, clearance: float) -> CutSurface:
+    """Cut the limit surface of a duotone, and carry it onto another surface of the same shape and place.
+
+    Fine enough for the chord tolerance of the smooth surface and for the other's detail; all in mm.
+
+    Raises
+    ------
+    PatternError
+        If the arc position is out of range, or the tolerance would need too many triangles.
+    SolidError
+        If the clearance does not fit, or the smooth surface crosses itself beyond mending.
+    """
+    side = float(np.median(tile_sides(duotone.quads)))
+    resolution = max(
+        resolution_for(duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance),
+        detail_resolution(onto.points, onto.triangles, tile_side=side),
+    )
+    surface = settled(duotone, clearance=clearance, arc=arc, resolution=resolution)
+    found = carried(surface.points, surface.normals, surface.triangles, onto.points, onto.triangles)
+    return replace(surface, points=found.points, base=found.base, normals=found.base_normals)

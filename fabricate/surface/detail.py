@@ -1,0 +1,117 @@
+"""Detail: the tessellated smooth surface carried onto the surface that it stands for.
+
+In each round every point learns where it belongs on the target, the field of moves is smoothed, the less the later the
+round, and the surface takes as much of that step as keeps it embedded. So it stretches into ears and fingers that the
+smooth surface lacks before it takes on fine detail, and where its own sheets are in each other's way it stays smooth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from fabricate.arrays import Floats, Indices, frozen
+from fabricate.surface.embedding import Embedding
+from fabricate.surface.smoothing import filled, low_pass, passes_over
+from fabricate.surface.stepping import stepped, untangled
+from fabricate.surface.target import Target
+from fabricate.triangles.normals import unit, vertex_normals
+
+SCHEDULE = (20, 10, 4, 2, 0)
+"""How often the moves are smoothed in each round."""
+
+REACH = 0.12
+"""How far a point may move in a round, as a share of the bounding box's diagonal."""
+
+SLIDES = 5
+"""How often points slide within the surface, in a round, towards where their neighbours moved."""
+
+WALL = 2.0
+"""Length below which the surface under the detail is smooth, unless asked otherwise, mm."""
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """A smooth surface that took on the detail of another, point by point.
+
+    Attributes
+    ----------
+    points : (n, 3) float
+        On the other surface wherever that can be without crossings or folds; float32-exact, mm.
+    base, base_normals : (n, 3) float
+        The same shape without its fine detail, mm, and its unit outward normals: what an inner wall follows.
+    """
+
+    points: Floats
+    base: Floats
+    base_normals: Floats
+
+    def __post_init__(self) -> None:
+        for name in ("points", "base", "base_normals"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.float64, (len(self.points), 3)))
+
+
+def carried(
+    points: Floats,
+    normals: Floats,
+    triangles: Indices,
+    onto_points: Floats,
+    onto_triangles: Indices,
+    *,
+    smoothing: float = WALL,
+) -> Carried:
+    """Carry a closed surface onto another of the same shape, in the same place, and keep it embedded.
+
+    Parameters
+    ----------
+    points, normals : (n, 3) float
+        The smooth surface, mm, and its unit outward normals.
+    triangles : (m, 3) int
+        Of the smooth surface, outward.
+    onto_points, onto_triangles : (k, 3) float and (l, 3) int
+        The other surface, mm, closed and outward. It may cross itself; the result does not.
+    smoothing : float
+        The base varies over no less than about this length, mm.
+
+    Raises
+    ------
+    SolidError
+        If the smooth surface crosses itself, and relaxing it there does not help.
+    """
+    embedding = Embedding.of(triangles, count=len(points))
+    target = Target.of(onto_points, onto_triangles)
+    reach = REACH * float(np.linalg.norm(np.ptp(onto_points, axis=0)))
+    outer = untangled(points, embedding.means, embedding.crossed)
+    for passes in SCHEDULE:
+        slid = _slid(outer, points, normals, embedding.means)
+        aims = target.aims(slid, normals, reach=reach)
+        moved = slid + filled(aims.place - slid, aims.weight, embedding.means, passes=passes)
+        outer = stepped(outer, moved, embedding.means, embedding.faults_since(outer))
+        normals = _steady_normals(outer, embedding)
+    edge = float(np.median(np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1)))
+    smooth = points + low_pass(outer - points, embedding.means, passes=passes_over(smoothing, edge))
+    base = stepped(outer, smooth, embedding.means, embedding.faults_since(outer))
+    return Carried(outer, base, vertex_normals(base, triangles))
+
+
+def _slid(points: Floats, start: Floats, normals: Floats, means: csr_array) -> Floats:
+    """Return the points slid within the surface until they moved from `start` much as their neighbours did.
+
+    Moves are evened out, not places, so the pattern keeps its proportions.
+    """
+    for _ in range(SLIDES):
+        move = points - start
+        way = means @ move - move
+        way -= np.einsum("ij,ij->i", way, normals)[:, None] * normals
+        points = points + 0.5 * way
+    return points
+
+
+def _steady_normals(points: Floats, embedding: Embedding) -> Floats:
+    """Return normals averaged over two rings, so that single points do not turn aside."""
+    normals = vertex_normals(points, embedding.triangles)
+    for _ in range(2):
+        normals = unit(embedding.means @ normals)
+    return normals

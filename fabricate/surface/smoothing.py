@@ -1,0 +1,43 @@
+"""Smooth fields on a triangle mesh: gaps filled from around, and detail below a length taken out."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from fabricate.arrays import Floats
+
+
+def filled(values: Floats, weight: Floats, means: csr_array, *, passes: int) -> Floats:
+    """Return values, (n, 3), smoothed `passes` times, each counting with its weight, (n,) from 0 to 1.
+
+    A value of weight 0 is replaced by what comes from around it, or by 0 if nothing does.
+    """
+    both = _averaged(np.column_stack([values * weight[:, None], weight]), means, passes)
+    filled_in: Floats = both[:, :-1] / np.maximum(both[:, -1:], np.finfo(float).tiny)
+    return filled_in
+
+
+def low_pass(values: Floats, means: csr_array, *, passes: int) -> Floats:
+    """Return values, (n, 3), without what varies over fewer than about sqrt(passes) edges.
+
+    What averaging takes away is averaged and given back once, so that broad shapes shrink to second order only.
+    """
+    smooth = _averaged(values, means, passes)
+    kept: Floats = smooth + _averaged(values - smooth, means, passes)
+    return kept
+
+
+def passes_over(length: float, edge: float) -> int:
+    """Return how many passes spread a value over `length` when edges are `edge` long, both mm.
+
+    A pass goes half of the way to the mean of the neighbours, which spreads a point's value by half an edge in
+    each direction (the standard deviation); and spreads add up as squares.
+    """
+    return max(1, round((length / (0.5 * edge)) ** 2))
+
+
+def _averaged(values: Floats, means: csr_array, passes: int) -> Floats:
+    for _ in range(passes):
+        values = 0.5 * (values + means @ values)
+    return values

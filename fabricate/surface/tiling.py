@@ -1,0 +1,104 @@
+"""The stage `quads`: a body's own cells, or new ones, divided into tiles of the size asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fabricate.duotone.catmull_clark import catmull_clark, subdivided
+from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
+from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.prepare.remesh import Cells, remeshed
+from fabricate.prepare.tile_sides import tile_sides
+from fabricate.prepare.triangle_mesh import TriangleMesh, fanned
+from fabricate.surface.fitting import fitted
+from fabricate.surface.limit import limit_vertices
+from fabricate.surface.roundness import polygons, rounded
+from fabricate.surface.sizing import ENOUGH_TILES, divided, sized, tiled
+
+TOO_FINE = 1.5
+"""A file's own cells are too fine when their tiles are smaller than those asked for by more than this factor."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tiling:
+    """Tiles in mm, and the surface they were made for.
+
+    Attributes
+    ----------
+    quads : QuadMesh
+    surface : TriangleMesh or None
+        What new cells were made for, mm; None where the body's own cells carry the tiles.
+    notes : tuple of str
+        What a user should know of new cells.
+    """
+
+    quads: QuadMesh
+    surface: TriangleMesh | None
+    notes: tuple[str, ...]
+
+
+def own_tiling(
+    mesh: PolygonMesh, *, size: float, tile_size: float | None, levels: int | None, round_limit: bool
+) -> Tiling:
+    """Return the tiles of a body's own cells, halved until they are as near to `tile_size` mm as they get.
+
+    `levels` counts the halvings instead. `size` is the longest side of the smooth surface, mm. With `round_limit`
+    points move after the first step so that the smooth surface of a polyhedron on a sphere is round.
+
+    Raises
+    ------
+    PatternError
+        If the tile size does not suit the body, tiles are too many, or quads that are to be used as they are
+        cannot be coloured.
+    """
+    steps = levels or 0
+    if round_limit and levels != 0:
+        mesh = polygons(rounded(catmull_clark(mesh).mesh))
+        steps -= 1
+    mesh = sized(mesh, size=size)
+    if levels is None and tile_size is not None:
+        return Tiling(tiled(mesh, tile_size=tile_size), None, ())
+    return Tiling(divided(mesh, levels=steps) if steps else two_coloured(mesh), None, ())
+
+
+def new_tiling(
+    surface: TriangleMesh,
+    *,
+    cells: Cells,
+    tile_size: float,
+    seed: int,
+    progress: Callable[[str], None],
+) -> Tiling:
+    """Return tiles of new cells for a surface in mm; their smooth surface lies close to it.
+
+    Raises
+    ------
+    PrepareError
+        If the tile size does not suit the body, or no sound cells come out.
+    """
+    made = remeshed(surface.polygons, cells=cells, tile_size=tile_size, seed=seed, progress=progress)
+    progress("fitting the smooth surface")
+    quads = fitted(subdivided(made.mesh, levels=1), surface.points, surface.triangles)
+    return Tiling(quads, surface, made.notes)
+
+
+def too_fine(mesh: PolygonMesh, *, size: float, tile_size: float) -> bool:
+    """Tell whether the tiles of a mesh's own cells are far smaller than those asked for; both lengths in mm."""
+    extent = float(np.ptp(mesh.points, axis=0).max())
+    return float(np.median(tile_sides(mesh))) * size / extent * TOO_FINE < tile_size
+
+
+def input_surface(mesh: PolygonMesh, *, size: float) -> TriangleMesh:
+    """Return the polygons of a mesh as triangles, scaled to a longest side of `size` mm."""
+    return fanned(mesh.scaled(size / float(np.ptp(mesh.points, axis=0).max())))
+
+
+def smooth_surface(mesh: PolygonMesh, *, size: float, round_limit: bool) -> TriangleMesh:
+    """Return the smooth surface of a coarse cage, finely tessellated, with a longest side of `size` mm."""
+    quads = own_tiling(mesh, size=size, tile_size=None, levels=1, round_limit=round_limit).quads
+    while len(quads.tiles) < ENOUGH_TILES:
+        quads = catmull_clark(quads).mesh
+    return fanned(polygons(quads).moved(limit_vertices(quads)))

@@ -1,0 +1,89 @@
+"""Faults of a surface: planted crossings, folds and collapsed triangles are found at their points, and no others."""
+
+from __future__ import annotations
+
+import numpy as np
+import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from fabricate.arrays import Mask
+from fabricate.surface.embedding import Embedding, stored
+
+BALL = trimesh.creation.icosphere(subdivisions=2)
+POINTS, TRIANGLES = stored(np.array(BALL.vertices)), np.array(BALL.faces)
+EMBEDDING = Embedding.of(TRIANGLES, count=len(POINTS))
+ALL: Mask = np.ones(len(POINTS), dtype=bool)
+
+
+def pushed_through(point: int) -> np.ndarray:
+    points = POINTS.copy()
+    points[point] *= -1.5
+    return points
+
+
+def test_a_sphere_has_no_fault() -> None:
+    assert not EMBEDDING.crossed(POINTS, ALL).any()
+    assert not EMBEDDING.folded(POINTS).any()
+
+
+def test_every_edge_has_the_two_triangles_that_share_it() -> None:
+    assert len(EMBEDDING.sides) == len(BALL.edges_unique)
+    shared = [len(set(TRIANGLES[a]) & set(TRIANGLES[b])) for a, b in EMBEDDING.sides]
+    assert set(shared) == {2}
+
+
+def test_a_point_pushed_through_the_other_side_crosses_it() -> None:
+    found = EMBEDDING.crossed(pushed_through(5), ALL)
+    assert found[5]
+    assert 3 < found.sum() < len(POINTS) / 2
+
+
+def test_only_the_neighbourhood_of_what_moved_is_looked_at_and_that_is_enough() -> None:
+    moved = np.arange(len(POINTS)) == 5
+    found = EMBEDDING.crossed(pushed_through(5), moved)
+    assert (found == EMBEDDING.crossed(pushed_through(5), ALL)).all()
+    assert not EMBEDDING.crossed(pushed_through(5), np.zeros_like(moved)).any()
+
+
+def test_a_triangle_without_area_is_a_fault() -> None:
+    points = POINTS.copy()
+    first, second = TRIANGLES[7, :2]
+    points[first] = points[second]
+    found = EMBEDDING.crossed(points, ALL)
+    assert found[[first, second]].all()
+
+
+def folded_over() -> np.ndarray:
+    """Return the sphere with one point moved within the surface beyond the far edge of a triangle at it."""
+    points = POINTS.copy()
+    corner, left, right = TRIANGLES[11]
+    points[corner] += 1.3 * (points[[left, right]].mean(axis=0) - points[corner])
+    points[corner] *= 1.001
+    return points
+
+
+def test_a_triangle_turned_over_makes_folds() -> None:
+    found = EMBEDDING.folded(folded_over())
+    assert found.any()
+    corner = TRIANGLES[11, 0]
+    assert (TRIANGLES[EMBEDDING.sides[found]] == corner).any(axis=(1, 2)).all()
+
+
+def test_a_blade_is_a_fold_only_if_it_was_none_before() -> None:
+    blade = stored(POINTS * [1.0, 1.0, 0.01])
+    fresh, known = EMBEDDING.faults_since(POINTS)(blade, ALL), EMBEDDING.faults_since(blade)(blade, ALL)
+    assert fresh.any()
+    assert np.abs(POINTS[fresh, 2]).max() < 0.5
+    assert not known.any()
+    assert EMBEDDING.faults_since(blade)(pushed_through(5), ALL)[5]
+
+
+@given(values=arrays(np.float64, (5, 3), elements=st.floats(-1e3, 1e3)))
+def test_what_is_stored_survives_a_file(values: np.ndarray) -> None:
+    once = stored(values)
+    assert (once.astype(np.float32) == once).all()
+    assert (stored(once) == once).all()
+    np.testing.assert_allclose(once, values, rtol=1e-6, atol=1e-30)
+    assert not np.signbit(once[once == 0]).any()

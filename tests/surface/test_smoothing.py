@@ -1,0 +1,85 @@
+"""Smoothing: constants stay, gaps are filled, spread grows as said, broad shapes keep their size."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+from polyhedra import seeds
+
+from fabricate.surface.smoothing import filled, low_pass, passes_over
+from fabricate.triangles.adjacency import neighbour_means
+
+BALL = trimesh.creation.icosphere(subdivisions=3)
+POINTS = np.array(BALL.vertices)
+MEANS = neighbour_means(np.array(BALL.faces), count=len(POINTS))
+
+
+def flat_torus(side: int) -> np.ndarray:
+    """Return the triangles of a regular triangulation, every point with six neighbours, that closes both ways."""
+    i, j = np.divmod(np.arange(side * side), side)
+
+    def number(a: int, b: int) -> np.ndarray:
+        return np.asarray((i + a) % side * side + (j + b) % side)
+
+    a, b, c, d = number(0, 0), number(1, 0), number(1, 1), number(0, 1)
+    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+
+
+@given(seed=seeds, passes=st.integers(0, 20))
+def test_a_constant_stays_whatever_its_weights(seed: int, passes: int) -> None:
+    random = np.random.default_rng(seed)
+    weight = random.uniform(0.1, 1, len(POINTS))
+    constant = np.tile(random.normal(size=3), (len(POINTS), 1))
+    np.testing.assert_allclose(filled(constant, weight, MEANS, passes=passes), constant)
+    np.testing.assert_allclose(low_pass(constant, MEANS, passes=passes), constant)
+
+
+def test_without_passes_nothing_changes() -> None:
+    np.testing.assert_allclose(filled(POINTS, np.full(len(POINTS), 0.3), MEANS, passes=0), POINTS)
+    np.testing.assert_allclose(low_pass(POINTS, MEANS, passes=0), POINTS)
+
+
+def test_a_gap_is_filled_from_around_and_what_it_held_is_forgotten() -> None:
+    gap = POINTS[:, 2] > 0.9
+    values = np.where(gap[:, None], 1e6, 1.0) * np.ones((1, 3))
+    np.testing.assert_allclose(filled(values, 1.0 - gap, MEANS, passes=20), 1.0)
+
+
+def test_where_nothing_is_known_the_value_is_zero() -> None:
+    assert not filled(POINTS, np.zeros(len(POINTS)), MEANS, passes=5).any()
+
+
+@pytest.mark.parametrize("length", [2.0, 3.5])
+def test_a_peak_spreads_over_the_length_asked_for(length: float) -> None:
+    side = 60
+    means = neighbour_means(flat_torus(side), count=side * side)
+    peak = np.zeros((side * side, 3))
+    centre = side // 2 * side + side // 2
+    peak[centre] = 1.0
+    spread = filled(peak, np.ones(len(peak)), means, passes=passes_over(length, 1.0))[:, 0]
+    i, j = np.divmod(np.arange(side * side), side)
+    # rows and columns of the grid at 120 degrees, edges of length 1
+    x, y = (i - side // 2) - 0.5 * (j - side // 2), np.sqrt(0.75) * (j - side // 2)
+    for across in (x, y):
+        assert np.sqrt(spread @ across**2) == pytest.approx(length, rel=0.05)
+
+
+def test_a_broad_shape_keeps_its_size() -> None:
+    """Averaging shrinks a sphere; giving back what it took leaves the square of that share."""
+    passes = 20
+    plain = filled(POINTS, np.ones(len(POINTS)), MEANS, passes=passes)
+    lost, kept = 1 - np.linalg.norm(plain, axis=1), 1 - np.linalg.norm(low_pass(POINTS, MEANS, passes=passes), axis=1)
+    assert lost.mean() > 0.05
+    np.testing.assert_allclose(kept.mean(), lost.mean() ** 2, rtol=0.1)
+
+
+def test_fine_detail_is_taken_out() -> None:
+    noise = np.random.default_rng(3).normal(size=POINTS.shape)
+    assert low_pass(noise, MEANS, passes=20).std() < 0.2 * noise.std()
+
+
+def test_a_length_below_an_edge_takes_one_pass() -> None:
+    assert passes_over(0.01, 1.0) == 1
