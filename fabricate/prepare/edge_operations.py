@@ -10,7 +10,7 @@ import numpy as np
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.prepare.tangent_planes import TangentPlanes
 from fabricate.prepare.triangle_mesh import Edges, TriangleMesh, adjacency, edges
-from fabricate.triangles.normals import area_vectors, unit, vertex_normals
+from fabricate.triangles.normals import area_vectors, unit
 
 TOO_LONG, TOO_SHORT = 4.0 / 3.0, 4.0 / 5.0
 """Edges that leave this range of the length asked for are split or collapsed: halves of a split edge don't collapse."""
@@ -51,7 +51,7 @@ def split_long_edges(mesh: TriangleMesh, lengths: Floats) -> tuple[TriangleMesh,
     triangles[joined.triangles[chosen, 0]] = np.stack([a, middle, c], axis=1)
     triangles[joined.triangles[chosen, 1]] = np.stack([b, middle, d], axis=1)
     added = [np.stack([middle, b, c], axis=1), np.stack([middle, a, d], axis=1)]
-    points = np.concatenate([mesh.points, _bowed_middles(mesh, joined.ends[chosen])])
+    points = np.concatenate([mesh.points, 0.5 * (mesh.points[a] + mesh.points[b])])
     wanted = np.concatenate([lengths, 0.5 * (lengths[a] + lengths[b])])
     return TriangleMesh(points, np.concatenate([triangles, *added])), wanted
 
@@ -103,21 +103,6 @@ def flip_edges(mesh: TriangleMesh) -> TriangleMesh:
     triangles[joined.triangles[chosen, 0]] = np.stack([a, d, c], axis=1)
     triangles[joined.triangles[chosen, 1]] = np.stack([d, b, c], axis=1)
     return TriangleMesh(mesh.points, triangles)
-
-
-def _bowed_middles(mesh: TriangleMesh, ends: Indices) -> Floats:
-    """Return the middles of curves that leave the ends of edges, (k, 2), at right angles to the normals there.
-
-    On a thin or bent part that is nearer to the surface than the middle of the edge, which may lie nearer to the
-    other side of it.
-
-    Source: the edges of Vlachos, Peters, Boyd and Mitchell, "Curved PN triangles", I3D 2001.
-    """
-    normals = vertex_normals(mesh.points, mesh.triangles)
-    (a, b), (at_a, at_b) = np.moveaxis(mesh.points[ends], 1, 0), np.moveaxis(normals[ends], 1, 0)
-    rises = [np.einsum("ij,ij->i", b - a, normal)[:, None] * normal for normal in (at_a, at_b)]
-    middles: Floats = 0.5 * (a + b) + 0.125 * (rises[1] - rises[0])
-    return middles
 
 
 def _keeps_topology(mesh: TriangleMesh, joined: Edges, candidates: Indices) -> Mask:

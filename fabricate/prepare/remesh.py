@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -46,7 +47,7 @@ FEWEST_FINE = 16_000
 MOST_INPUT = 40_000
 """Inputs with more triangles than this, and than twice as many as the fine ones, are decimated first."""
 
-REACH, QUADRIFLOW_REACH = 1.25, 2.0
+REACH, QUADRIFLOW_REACH = 1.0, 2.0
 """How far from its cells a surface may be, in tile sides. QuadriFlow cuts off more, and has no finer cells there."""
 
 ATTEMPTS = ((1.0, 0), (1.0, 1), (1.0, 2), (1.3, 0), (1.3, 1))
@@ -204,10 +205,9 @@ def _triangular(task: _Task, cells: Literal["triangles", "hexagons"]) -> Polygon
     return min(made, key=lambda found: (len(crossing_faces(found)), abs(task.miss(found))))
 
 
-_CELLS_OF: dict[str, Callable[[TriangleMesh], PolygonMesh]] = {
-    "triangles": lambda triangles: triangles.polygons,
-    "hexagons": lambda triangles: dual(triangles.polygons),
-}
+_CELLS_OF: Mapping[str, Callable[[TriangleMesh], PolygonMesh]] = MappingProxyType(
+    {"triangles": lambda triangles: triangles.polygons, "hexagons": lambda triangles: dual(triangles.polygons)}
+)
 
 
 def _checked(task: _Task, cells: PolygonMesh) -> PolygonMesh:

@@ -126,20 +126,19 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, core: Core)
     drop = floor_drop(inner, surface.triangles, down, clearance=clearance)
     inlaid = surface.triangles[surface.yellow if core == "blue" else ~surface.yellow]
     wanted = np.full(len(surface.curve), clearance)
-    short = len(surface.points) + 1
     for _ in range(CORRECTIONS):
         levels = [surface.points, inner] + ([] if core == "hollow" else [inner + drop[:, None] * down])
         layers = [layer(surface, points, down, clearance=wanted) for points in levels]
         missing = clearance / np.maximum(_wall_gaps(surface, layers, core), 1e-9)
-        before, short = short, int((missing > NOTHING_MISSING).sum())
+        short = (missing > NOTHING_MISSING).any()
         if core != "hollow":
             ceiling, floor = (
                 (layers[1].yellow, layers[2].blue) if core == "blue" else (layers[1].blue, layers[2].yellow)
             )
             deeper = lowered(drop, ceiling, floor, inlaid, clearance=clearance)
-            short += int((deeper > NOTHING_MISSING * drop).sum())
+            short |= (deeper > NOTHING_MISSING * drop).any()
             drop = deeper
-        if not 0 < short < before:
+        if not short:
             break
         wanted = wanted * np.clip(_widened(missing), 1.0, MOST_ADDED)
     return layers

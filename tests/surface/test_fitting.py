@@ -53,7 +53,7 @@ def test_the_limit_comes_to_lie_on_the_target(name: str) -> None:
     mesh, onto = CASES[name]
     quads = subdivided(mesh, levels=1)
     made = fitted_to(quads, onto)
-    assert off(made, onto).mean < 0.2 * off(quads, onto).mean
+    assert off(made, onto).mean < 0.5 * off(quads, onto).mean
     assert off(made, onto).max < 0.02 * float(np.linalg.norm(onto.extents))
     surface = surface_of(made)
     assert len(crossing_triangles(surface.points, surface.triangles)) == 0

@@ -44,8 +44,8 @@ def test_without_passes_nothing_changes() -> None:
 
 def test_a_gap_is_filled_from_around_and_what_it_held_is_forgotten() -> None:
     gap = POINTS[:, 2] > 0.9
-    values = np.where(gap[:, None], 1e6, 1.0) * np.ones((1, 3))
-    np.testing.assert_allclose(filled(values, 1.0 - gap, MEANS, passes=20), 1.0)
+    values: np.ndarray = np.where(gap[:, None], 1e6, np.ones((len(gap), 3)))
+    np.testing.assert_allclose(filled(values, (~gap).astype(np.float64), MEANS, passes=20), 1.0)
 
 
 def test_where_nothing_is_known_the_value_is_zero() -> None:

@@ -42,6 +42,10 @@ def test_cells_are_too_fine_for_much_larger_tiles_only(tile_size: float, *, verd
     assert too_fine(geodesic_sphere(frequency=8), size=60.0, tile_size=tile_size) == verdict
 
 
+def test_quads_that_somebody_laid_out_are_kept() -> None:
+    assert not too_fine(torus(around=64, across=32, tube=0.45), size=60.0, tile_size=20.0)
+
+
 def test_the_input_is_scaled_to_its_size() -> None:
     surface = input_surface(RING, size=60.0)
     assert np.ptp(surface.points, axis=0).max() == pytest.approx(60.0)
