@@ -8,8 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from manifold3d import Manifold
 
-from fabricate.arrays import Floats, Indices, frozen
+from fabricate.arrays import Floats, frozen
 from fabricate.checks.facts import Gap
+from fabricate.triangles.adjacency import undirected_edges
+from fabricate.triangles.edge_pieces import EdgePieces
 from fabricate.triangles.search_tree import SearchTree
 
 SEARCH = 1.2
@@ -62,22 +64,6 @@ class _Spot(NamedTuple):
     other: SearchTree
 
 
-class _Pieces(NamedTuple):
-    """Pieces of edges: their two ends, each (k, 3), and the ends' distances from the other part, (k,), mm."""
-
-    begins: Floats
-    ends: Floats
-    at_begin: Floats
-    at_end: Floats
-
-    @property
-    def least(self) -> Floats:
-        """(k,) float: no point of a piece can be nearer: distance changes no faster than position."""
-        length = np.linalg.norm(self.ends - self.begins, axis=1)
-        least: Floats = 0.5 * (self.at_begin + self.at_end - length)
-        return least
-
-
 def smallest_gap(spacing: Spacing, first: Manifold, second: Manifold, *, clearance: float | None) -> Gap:
     """Return the smallest gap between two parts, which Manifold holds as `first` and `second`.
 
@@ -120,34 +106,19 @@ def _on_edges(own: SearchTree, other: SearchTree, distances: Floats, spot: _Spot
 
     Pieces of edges are halved, the most promising first, until one end is near enough (branch and bound).
     """
-    pieces = _edge_pieces(own.points, own.triangles, distances)
+    pieces = EdgePieces.whole(own.points, undirected_edges(own.triangles), distances)
     for _ in range(ROUNDS):
         least = pieces.least
         order = np.argsort(least, kind="stable")[:MOST_PIECES]
         order = order[least[order] <= gap]
         if spot.distance <= (1.0 + PLACE_TOLERANCE) * gap or not len(order):
             break
-        begins, ends, at_begin, at_end = (each[order] for each in pieces)
-        middles = 0.5 * (begins + ends)
-        at_middle = other.nearest(middles).distance
+        pieces = pieces.chosen(order).halved(other)
+        middles, at_middle = pieces.ends[: len(order)], pieces.at_end[: len(order)]
         k = int(at_middle.argmin())
         if at_middle[k] < spot.distance:
             spot = _Spot(float(at_middle[k]), middles[k], other)
-        pieces = _Pieces(
-            np.concatenate([begins, middles]),
-            np.concatenate([middles, ends]),
-            np.concatenate([at_begin, at_middle]),
-            np.concatenate([at_middle, at_end]),
-        )
     return spot
-
-
-def _edge_pieces(points: Floats, triangles: Indices, distances: Floats) -> _Pieces:
-    """Return all edges of a closed, oriented mesh, each taken in its direction of rising numbers."""
-    begins, ends = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    rising = begins < ends
-    begins, ends = begins[rising], ends[rising]
-    return _Pieces(points[begins], points[ends], distances[begins], distances[ends])
 
 
 def _midway(spot: _Spot) -> tuple[float, float, float]:

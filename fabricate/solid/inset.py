@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from fabricate.arrays import Floats, Indices, Mask
+from fabricate.arrays import Floats, Mask
 from fabricate.surface.cut import CutSurface
-from fabricate.triangles.adjacency import grown
+from fabricate.triangles.adjacency import grown, undirected_edges
 from fabricate.triangles.normals import area_vectors, unit
 from fabricate.triangles.ray_casting import first_hits
 
@@ -78,7 +78,7 @@ def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float, between
     through = hits.distance / np.linalg.norm(ways, axis=1)
     depth: Floats = np.clip((through - between) / 2.0, 0.1 * thickness, thickness)
     if (depth < thickness).any():
-        ends = _edges(surface.triangles)
+        ends = undirected_edges(surface.triangles)
         span = np.linalg.norm(surface.points[ends[:, 0]] - surface.points[ends[:, 1]], axis=1) * DEPTH_SLOPE
         for _ in range(SLOPE_PASSES):
             reach = depth[ends] + span[:, None]
@@ -129,9 +129,3 @@ def retreated(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array
     for _ in range(RINGS):
         weight = np.maximum(weight, means @ weight)
     return inner + RETREAT * weight[:, None] * (safe - inner)
-
-
-def _edges(triangles: Indices) -> Indices:
-    """Return each undirected edge of a closed mesh once, (e, 2) int."""
-    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    return ends[ends[:, 0] < ends[:, 1]]

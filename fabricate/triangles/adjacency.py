@@ -1,4 +1,4 @@
-"""Neighbourhoods of points on a closed triangle mesh."""
+"""Edges and neighbourhoods of points on a closed triangle mesh."""
 
 from __future__ import annotations
 
@@ -6,6 +6,13 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array
 
 from fabricate.arrays import Indices, Mask
+
+
+def undirected_edges(triangles: Indices) -> Indices:
+    """Return each edge of a closed, oriented mesh once, (e, 2) int, lower number first."""
+    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    rising: Indices = ends[ends[:, 0] < ends[:, 1]]
+    return rising
 
 
 def neighbour_means(triangles: Indices, *, count: int) -> csr_array:

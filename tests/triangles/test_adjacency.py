@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import directed_edges, hull, on_sphere, seeds, tetrahedron
 
-from fabricate.triangles.adjacency import grown, neighbour_means
+from fabricate.triangles.adjacency import grown, neighbour_means, undirected_edges
 
 
 @st.composite
@@ -19,6 +19,14 @@ def triangulations(draw: st.DrawFn) -> tuple[np.ndarray, int]:
 
 def graph_of(triangles: np.ndarray) -> nx.Graph:
     return nx.Graph(directed_edges(triangles.tolist()))
+
+
+@given(mesh=triangulations())
+def test_every_edge_is_there_once(mesh: tuple[np.ndarray, int]) -> None:
+    triangles, _ = mesh
+    found = undirected_edges(triangles).tolist()
+    assert len(found) == len(triangles) * 3 // 2
+    assert {tuple(edge) for edge in found} == {tuple(sorted(edge)) for edge in graph_of(triangles).edges}
 
 
 @given(mesh=triangulations(), seed=seeds)
