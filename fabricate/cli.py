@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Annotated, NoReturn
 
 import typer
+from platformdirs import user_cache_path
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn
 
@@ -25,7 +26,10 @@ from fabricate.output.new_config import write_new_config
 from fabricate.pipeline import check as check_parts
 from fabricate.pipeline import inspect as inspect_mesh
 from fabricate.prepare.diagnosis_text import diagnosis_data, diagnosis_text
+from fabricate.prepare.store import Store
 from fabricate.units import parse_length
+
+CACHE = user_cache_path("fabricate", appauthor=False)
 
 app = typer.Typer(
     help="Divide a closed surface by one closed curve and make two interlocking printable solids of it.",
@@ -88,10 +92,14 @@ def run(
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key: solid.thickness=2mm."),
     ] = None,
     jobs: Annotated[int, typer.Option(min=1, help="How many configs at the same time.")] = 1,
+    cache: Annotated[
+        Path, typer.Option(envvar="FABRICATE_CACHE", help="Folder that keeps what takes long to prepare.")
+    ] = CACHE,
 ) -> None:
     """Make the parts of each config: one folder with STL, 3MF, pictures and a report."""
     with _listener(out) as listener:
-        outcomes = run_all(configs, out=out, overrides=settings or (), jobs=jobs, listener=listener)
+        store = Store(cache)
+        outcomes = run_all(configs, out=out, overrides=settings or (), jobs=jobs, listener=listener, store=store)
     raise typer.Exit(max(outcome.status for outcome in outcomes))
 
 

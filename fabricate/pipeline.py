@@ -28,6 +28,7 @@ from fabricate.output.sculpture import write_sculpture
 from fabricate.prepare.density import finest_tile
 from fabricate.prepare.inspection import Inspection, inspected
 from fabricate.prepare.prepared import Prepared, prepared
+from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES
 from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.settling import fitted_cut
@@ -38,11 +39,14 @@ from fabricate.surface.tiling import Tiling, input_surface, new_tiling, own_tili
 LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf")
 
 
-def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]) -> tuple[Report, ...]:
+def run(
+    config: Config, *, name: str, out: Path, progress: Callable[[str], None], store: Store = NOTHING_KEPT
+) -> tuple[Report, ...]:
     """Make the sculpture of a config in the folder `out / name`, and return what was proved of it.
 
     With `prepare.components = "each"` every body is a sculpture of its own, in `out / name-1` and so on.
-    `progress` is called with each stage's name as it begins.
+    `progress` is called with each stage's name as it begins. Wraps and new cells are taken from the `store` if
+    they were made before from the same.
 
     Raises
     ------
@@ -57,30 +61,30 @@ def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]
     limits = ReadLimits(max_bytes=prepare.max_file_mb << 20, max_faces=prepare.max_faces)
     mesh = source_mesh(config.source, limits=limits)
     watch.begin("prepare")
-    bodies = _bodies(mesh, config)
+    bodies = _bodies(mesh, config, store)
     if prepare.components != "each":
-        return (_sculpture(bodies[0], config, name=name, out=out, watch=watch),)
+        return (_sculpture(bodies[0], config, name=name, out=out, watch=watch, store=store),)
     return tuple(
-        _sculpture(body, config, name=f"{name}-{number}", out=out, watch=watch.copy())
+        _sculpture(body, config, name=f"{name}-{number}", out=out, watch=watch.copy(), store=store)
         for number, body in enumerate(bodies, start=1)
     )
 
 
-def _bodies(mesh: PolygonMesh, config: Config) -> tuple[Prepared, ...]:
+def _bodies(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, ...]:
     prepare = config.prepare
     try:
-        return prepared(mesh, repair=prepare.repair, components=prepare.components, crease=prepare.crease)
+        return prepared(mesh, repair=prepare.repair, components=prepare.components, crease=prepare.crease, store=store)
     except MeshError as error:
         if isinstance(config.source, FileConfig):
             raise MeshError(f"{config.source.file}: {error}") from None
         raise
 
 
-def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _Stopwatch) -> Report:
+def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _Stopwatch, store: Store) -> Report:
     """Make the two parts of one body."""
     pattern, solid = config.pattern, config.solid
     watch.begin("quads")
-    tiling = _tiling(body.mesh, config, watch.tell)
+    tiling = _tiling(body.mesh, config, watch.tell, store)
     watch.begin("duotone")
     duotone = grown_duotone(tiling.quads, tree=pattern.tree, seed=pattern.seed)
     certificate = certified(duotone)
@@ -149,7 +153,7 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
     )
 
 
-def _tiling(mesh: PolygonMesh, config: Config, progress: Callable[[str], None]) -> Tiling:
+def _tiling(mesh: PolygonMesh, config: Config, progress: Callable[[str], None], store: Store) -> Tiling:
     """Return the tiles of a body: of new cells where they are asked for, or a file's own are too fine."""
     source, pattern, prepare = config.source, config.pattern, config.prepare
     size, from_file, round_limit = source.size, isinstance(source, FileConfig), isinstance(source, SphereConfig)
@@ -163,7 +167,7 @@ def _tiling(mesh: PolygonMesh, config: Config, progress: Callable[[str], None]) 
         whole = (
             input_surface(mesh, size=size) if from_file else smooth_surface(mesh, size=size, round_limit=round_limit)
         )
-        made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=prepare.seed, progress=progress)
+        made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=prepare.seed, progress=progress, store=store)
     return replace(made, notes=limit + made.notes)
 
 

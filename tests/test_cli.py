@@ -31,6 +31,7 @@ class FakeCheck:
 class FakeReport:
     ok: bool = True
     checks: tuple[FakeCheck, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 FAILED = FakeReport(False, (FakeCheck(ok=False, message="gap is 0.1 mm", where=((1.0, 2.0, 3.5), (0.0, 0.0, 0.0))),))

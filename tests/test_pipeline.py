@@ -96,8 +96,11 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
     }
     assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm"}
     assert set(report["pattern"]) == {
-        *("tiles", "tile_size_mm", "curves", "regions", "curve_length_mm"),
+        *("tiles", "tile_size_mm", "tile_quality", "curves", "regions", "curve_length_mm"),
         *("area_share", "handles", "neck_mm"),
+    }
+    assert set(report["pattern"]["tile_quality"]) == {
+        *("aspect_median", "aspect_p95", "aspect_max", "size_ratio", "warnings"),
     }
     assert set(report["parts"]) == {"yellow", "blue"}
     for part in report["parts"].values():

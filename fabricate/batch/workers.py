@@ -19,6 +19,7 @@ from fabricate.checks.report import Report
 from fabricate.config import load_config
 from fabricate.errors import FabricateError
 from fabricate.pipeline import run
+from fabricate.prepare.store import NOTHING_KEPT, Store
 
 _POLL_SECONDS = 0.1
 _OUT_OF_MEMORY = "not enough memory for parts this fine: raise pattern.tile_size or solid.tolerance"
@@ -32,6 +33,7 @@ class _Order:
     path: Path
     out: Path
     overrides: tuple[str, ...]
+    store: Store
 
     @property
     def name(self) -> str:
@@ -68,7 +70,13 @@ class Listener(Protocol):
 
 
 def run_all(
-    paths: Sequence[Path], *, out: Path, overrides: Sequence[str], jobs: int, listener: Listener
+    paths: Sequence[Path],
+    *,
+    out: Path,
+    overrides: Sequence[str],
+    jobs: int,
+    listener: Listener,
+    store: Store = NOTHING_KEPT,
 ) -> tuple[Outcome, ...]:
     """Make the parts of every config and return the outcomes in the same order.
 
@@ -84,6 +92,8 @@ def run_all(
         How many runs at the same time, each in a process of its own; 1 stays in this process.
     listener : Listener
         Hears of stages and outcomes as they happen.
+    store : Store
+        Keeps what takes long to prepare.
 
     Raises
     ------
@@ -91,7 +101,7 @@ def run_all(
         Whatever a run raises that no user can cause, with a note that names its config; runs that have not
         begun by then are left out.
     """
-    orders = [_Order(path, out, tuple(overrides)) for path in paths]
+    orders = [_Order(path, out, tuple(overrides), store) for path in paths]
     outcomes = _refused(orders)
     for outcome in outcomes.values():
         listener.finished(outcome)
@@ -175,7 +185,8 @@ def _made_in_worker(order: _Order, stages: _Stages) -> Outcome:
 
 def _made(order: _Order, progress: Callable[[str], None]) -> Outcome:
     try:
-        reports = run(load_config(order.path, order.overrides), name=order.name, out=order.out, progress=progress)
+        config = load_config(order.path, order.overrides)
+        reports = run(config, name=order.name, out=order.out, progress=progress, store=order.store)
     except FabricateError as error:
         return Outcome(order.name, 2, str(error))
     except MemoryError:
@@ -196,8 +207,8 @@ def _verdict(report: Report) -> str:
     failed = [check.message for check in report.checks if not check.ok and not check.skipped]
     skipped = [check.message for check in report.checks if check.skipped]
     if report.ok:
-        return f"ok, but skipped: {'; '.join(skipped)}" if skipped else "ok"
-    return "; ".join(failed or skipped)
+        failed = ["ok, but skipped: " + "; ".join(skipped) if skipped else "ok"]
+    return "; ".join([*(failed or skipped), *(f"note: {note}" for note in report.notes)])
 
 
 def _lost(order: _Order, listener: Listener) -> Outcome:

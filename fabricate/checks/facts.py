@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Generic, Literal, TypeAlias, TypeVar
 
+from fabricate.prepare.tile_quality import TileQuality
+
 Xyz: TypeAlias = tuple[float, float, float]
 """A point, or three lengths along the axes, mm."""
 
@@ -107,6 +109,8 @@ class PatternFacts:
         How many there are; a duotone has one curve and two regions.
     tile_size_mm : float
         Median side of a tile.
+    tile_quality : TileQuality
+        How even the tiles are.
     curve_length_mm : float
         Length of the curve on the surface.
     area_share : ByColour
@@ -119,6 +123,7 @@ class PatternFacts:
 
     tiles: int
     tile_size_mm: float
+    tile_quality: TileQuality
     curves: int
     regions: int
     curve_length_mm: float

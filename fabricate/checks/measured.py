@@ -12,6 +12,7 @@ from fabricate.duotone.certificate import Certificate
 from fabricate.duotone.duotone import Duotone
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
+from fabricate.prepare.tile_quality import tile_quality
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.process import Process
 from fabricate.solid.assembly import Assembly, Core
@@ -53,6 +54,7 @@ def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurfac
     return PatternFacts(
         tiles=len(duotone.joined),
         tile_size_mm=float(np.median(tile_sides(duotone.quads))),
+        tile_quality=tile_quality(duotone.quads.points[duotone.quads.tiles]),
         curves=certificate.curves,
         regions=certificate.yellow.components + certificate.blue.components,
         curve_length_mm=length,

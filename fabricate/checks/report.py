@@ -61,6 +61,12 @@ class Report:
         """True when at least one check ran and none failed."""
         return any(check.ok for check in self.checks) and not any(check.failed for check in self.checks)
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a user should know of the mesh and its tiles, in sentences."""
+        of_mesh = () if self.mesh is None else self.mesh.notes
+        return of_mesh + (() if self.pattern is None else self.pattern.tile_quality.warnings)
+
 
 def report_json(report: Report) -> str:
     """Return the report as JSON text: keys in the order of the contract, six digits, a newline at the end.

@@ -10,6 +10,7 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.components import ComponentPolicy, chosen
 from fabricate.prepare.repair import RepairPolicy, repaired
 from fabricate.prepare.repaired import Action
+from fabricate.prepare.store import NOTHING_KEPT, Store
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +33,12 @@ class Prepared:
 
 
 def prepared(
-    mesh: PolygonMesh, *, repair: RepairPolicy, components: ComponentPolicy, crease: float | None
+    mesh: PolygonMesh,
+    *,
+    repair: RepairPolicy,
+    components: ComponentPolicy,
+    crease: float | None,
+    store: Store = NOTHING_KEPT,
 ) -> tuple[Prepared, ...]:
     """Return the bodies of a mesh, mended by `repair`, with edges sharper than `crease`, degrees, kept sharp.
 
@@ -43,7 +49,7 @@ def prepared(
     PrepareError
         If the mesh has to be wrapped, and libraries for that are missing.
     """
-    mended = repaired(mesh, policy=repair)
+    mended = repaired(mesh, policy=repair, store=store)
     bodies = [checked_closed(body) for body in chosen(mended.mesh, policy=components)]
     notes = _wrapping(mended.actions, bodies)
     sharp = bodies if crease is None else [fanned_corners(creased(body, angle=crease)) for body in bodies]

@@ -14,19 +14,21 @@ from fabricate.prepare.crossing_pairs import crossings
 from fabricate.prepare.ear_clipping import ear_clipped
 from fabricate.prepare.enclosure import enclosed
 from fabricate.prepare.gentle import gently_repaired
-from fabricate.prepare.repaired import Repaired
+from fabricate.prepare.repaired import Action, Repaired
+from fabricate.prepare.store import NOTHING_KEPT, Kept, Store
 from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.normals import area_vectors
 
 RepairPolicy: TypeAlias = Literal["none", "gentle", "wrap"]
 
 
-def repaired(mesh: PolygonMesh, *, policy: RepairPolicy) -> Repaired:
+def repaired(mesh: PolygonMesh, *, policy: RepairPolicy, store: Store = NOTHING_KEPT) -> Repaired:
     """Return a mesh whose components are closed, consistently wound 2-manifolds with volume.
 
     "none" takes the mesh as it is; "gentle" mends connections and winding without moving a point (see
     `gently_repaired`). "wrap" does that, too, and if components are left that are not closed or cross each
-    other or themselves, puts an alpha wrap round everything (see `enclosed`), which is a new surface.
+    other or themselves, puts an alpha wrap round everything (see `enclosed`), which is a new surface and is
+    kept in the store.
 
     Raises
     ------
@@ -40,12 +42,22 @@ def repaired(mesh: PolygonMesh, *, policy: RepairPolicy) -> Repaired:
     else:
         found = gently_repaired(mesh)
         if policy == "wrap" and not _is_sound(found.mesh):
-            around = enclosed(found.mesh)
+            around = _enclosed(found.mesh, store)
             found = Repaired(around.mesh, found.actions + around.actions)
     fault = _fault(found.mesh)
     if fault:
         raise MeshError(fault + _advice(mesh, policy))
     return found
+
+
+def _enclosed(mesh: PolygonMesh, store: Store) -> Repaired:
+    def make() -> Kept:
+        made = enclosed(mesh)
+        return Kept(made.mesh, tuple(f"{action.count} {action.name}" for action in made.actions))
+
+    kept = store.recalled(mesh, "wrap", make)
+    actions = (words.split(" ", 1) for words in kept.words)
+    return Repaired(kept.mesh, tuple(Action(name, int(count)) for count, name in actions))
 
 
 def _fault(mesh: PolygonMesh) -> str:

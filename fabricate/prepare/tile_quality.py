@@ -61,11 +61,11 @@ def _warnings(aspect: float, spread: float) -> tuple[str, ...]:
     if aspect > MOST_ASPECT:
         warnings.append(
             f"1 tile in 20 is more than {aspect:.3g} times as long as wide (limit {MOST_ASPECT:g}), so bands will be "
-            'uneven: remesh with cells = "quads"'
+            'uneven: prepare.cells = "quads" makes more even ones'
         )
     if spread > MOST_SPREAD:
         warnings.append(
             f"large tiles have {spread:.3g} times the side of small ones (limit {MOST_SPREAD:g}), so bands will be of "
-            'uneven width: remesh with cells = "quads", or ask for a smaller pattern.tile_size'
+            'uneven width: prepare.cells = "quads" makes more even ones, or ask for a smaller pattern.tile_size'
         )
     return tuple(warnings)

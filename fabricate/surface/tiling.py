@@ -11,6 +11,7 @@ from fabricate.duotone.catmull_clark import catmull_clark, subdivided
 from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.remesh import Cells, remeshed
+from fabricate.prepare.store import NOTHING_KEPT, Kept, Store
 from fabricate.prepare.tile_sides import tile_sides
 from fabricate.prepare.triangle_mesh import TriangleMesh, fanned
 from fabricate.surface.fitting import fitted
@@ -75,18 +76,27 @@ def new_tiling(
     tile_size: float,
     seed: int,
     progress: Callable[[str], None],
+    store: Store = NOTHING_KEPT,
 ) -> Tiling:
     """Return tiles of new cells for a surface in mm; their smooth surface lies close to it.
+
+    The cells are kept in the store.
 
     Raises
     ------
     PrepareError
         If the tile size does not suit the body, or no sound cells come out.
     """
-    made = remeshed(surface.polygons, cells=cells, tile_size=tile_size, seed=seed, progress=progress)
+    whole = surface.polygons
+
+    def make() -> Kept:
+        found = remeshed(whole, cells=cells, tile_size=tile_size, seed=seed, progress=progress)
+        return Kept(found.mesh, found.notes)
+
+    made = store.recalled(whole, f"{cells} {tile_size!r} {seed}", make)
     progress("fitting the smooth surface")
     quads = fitted(subdivided(made.mesh, levels=1), surface.points, surface.triangles)
-    return Tiling(quads, surface, made.notes)
+    return Tiling(quads, surface, made.words)
 
 
 def too_fine(mesh: PolygonMesh, *, size: float, tile_size: float) -> bool:

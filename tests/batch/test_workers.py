@@ -13,6 +13,7 @@ from fabricate.batch import workers
 from fabricate.batch.workers import Outcome, run_all
 from fabricate.config import Config
 from fabricate.errors import MeshError
+from fabricate.prepare.store import Store
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ class FakeReport:
     ok: bool = True
     checks: tuple[FakeCheck, ...] = ()
     name: str = "a"
+    notes: tuple[str, ...] = ()
 
 
 @dataclass
@@ -85,18 +87,29 @@ def test_a_run_gets_its_config_name_folder_and_listener(
 ) -> None:
     seen = []
 
-    def run(config: Config, *, name: str, out: Path, progress: Callable[[str], None]) -> tuple[FakeReport, ...]:
+    def run(
+        config: Config, *, name: str, out: Path, progress: Callable[[str], None], store: Store
+    ) -> tuple[FakeReport, ...]:
         progress("read")
         progress("checks")
-        seen.append((config.pattern.seed, name, out))
+        seen.append((config.pattern.seed, name, out, store))
         return (FakeReport(),)
 
     use(monkeypatch, run)
     log = Log()
-    outcomes = run_all([config("a")], out=tmp_path, overrides=["pattern.seed=5"], jobs=1, listener=log)
-    assert seen == [(5, "a", tmp_path)]
+    outcomes = run_all(
+        [config("a")], out=tmp_path, overrides=["pattern.seed=5"], jobs=1, listener=log, store=Store(tmp_path)
+    )
+    assert seen == [(5, "a", tmp_path, Store(tmp_path))]
     assert log.stages == [("a", "read"), ("a", "checks")]
     assert outcomes == (Outcome("a", 0, "ok"),) == tuple(log.outcomes)
+
+
+def test_notes_are_told_whatever_the_checks_say(config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    good = FakeReport(notes=("tiles are uneven", "the genus changed"))
+    assert outcome_of(config("a"), monkeypatch, good).message == "ok; note: tiles are uneven; note: the genus changed"
+    bad = FakeReport(False, (FakeCheck(False, message="overlap"),), notes=("tiles are uneven",))
+    assert outcome_of(config("a"), monkeypatch, bad).message == "overlap; note: tiles are uneven"
 
 
 def test_failed_checks_are_told_and_passed_ones_are_not(

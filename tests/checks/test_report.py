@@ -23,6 +23,7 @@ from fabricate.checks.facts import (
     Spread,
 )
 from fabricate.checks.report import Report, report_json
+from fabricate.prepare.tile_quality import TileQuality
 
 PASSED = Check("red.closed", ok=True, message="closed")
 SKIPPED = Check("fit.gap", ok=False, skipped=True, message="not known")
@@ -55,6 +56,7 @@ def report(
         pattern=PatternFacts(
             tiles=24,
             tile_size_mm=7.0,
+            tile_quality=TileQuality(1.2, 1.5, 1.9, 1.4, ()),
             curves=1,
             regions=2,
             curve_length_mm=123.456789,

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from fabricate.errors import PatternError
 from fabricate.mesh.closed import genus
+from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import geodesic_sphere, sphere
 from fabricate.mesh.torus import torus
-from fabricate.prepare.remesh import Cells
+from fabricate.prepare.remesh import Cells, Remeshed
+from fabricate.prepare.store import Store
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.sizing import tile_sides
 from fabricate.surface.tiling import input_surface, new_tiling, own_tiling, smooth_surface, too_fine
@@ -67,3 +71,27 @@ def test_new_cells_give_tiles_of_the_size_asked_for_on_the_surface(cells: Cells)
     assert np.median(sides) == pytest.approx(5.0, rel=0.15)
     assert made.quads.genus == 1
     assert np.ptp(limit_vertices(made.quads), axis=0) == pytest.approx(np.ptp(surface.points, axis=0), abs=1.0)
+
+
+def test_cells_that_were_made_before_are_not_made_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    surface, calls = input_surface(RING, size=60.0), []
+
+    def remeshed(mesh: PolygonMesh, *, cells: Cells, tile_size: float, seed: int, **_: object) -> Remeshed:
+        calls.append((cells, tile_size, seed))
+        return Remeshed(mesh, ("a note",))
+
+    monkeypatch.setattr("fabricate.surface.tiling.remeshed", remeshed)
+    monkeypatch.setattr("fabricate.prepare.store.WORTH_KEEPING", -1.0)
+    asked: list[tuple[Cells, float, int]] = [
+        ("quads", 5.0, 0),
+        ("quads", 5.0, 1),
+        ("quads", 6.0, 0),
+        ("hexagons", 5.0, 0),
+    ]
+    for cells, tile_size, seed in asked + asked:
+        made = new_tiling(
+            surface, cells=cells, tile_size=tile_size, seed=seed, progress=lambda _: None, store=Store(tmp_path)
+        )
+        assert made.notes == ("a note",)
+        assert made.quads.genus == 1
+    assert calls == asked
