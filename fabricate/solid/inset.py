@@ -90,18 +90,34 @@ def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float, between
 def slid(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> Floats:
     """Return the inner points, those over the tiles around the faulty ones slid sideways at their depth.
 
-    Points gather at a fold; sliding towards the mean of the neighbours hands the crowding on to where there is
-    room, without changing the thickness.
+    Points gather at a fold. Where they slide to be under the surface much as their neighbours are, the way in
+    becomes more nearly the same for all of them, and the pattern keeps its shape.
+    """
+    return surface.base + _evened(surface, inner - surface.base, faulty, means)
+
+
+def spread(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> Floats:
+    """Return the inner points, those over the tiles around the faulty ones slid towards the mean of their neighbours.
+
+    That hands the crowding at a fold on to where there is room, at the expense of the pattern's shape.
+    """
+    return _evened(surface, inner, faulty, means)
+
+
+def _evened(surface: CutSurface, values: Floats, faulty: Mask, means: csr_array) -> Floats:
+    """Return places or moves, (n, 3), evened out around the faulty points within the surface's tangent planes.
+
+    The thickness stays. Under creases they only change along these.
     """
     wide = np.flatnonzero(grown(faulty, means, TILES * (surface.rays.shape[2] - 1)))
     rows, normals = means[wide], surface.normals[wide]
     sharp, along = (surface.mitre > 1.0)[wide, None], surface.along[wide]
-    inner = inner.copy()
+    values = values.copy()
     for _ in range(SLIDES):
-        way = rows @ inner - inner[wide]
+        way = rows @ values - values[wide]
         aside = way - np.einsum("ij,ij->i", way, normals)[:, None] * normals
-        inner[wide] += np.where(sharp, np.einsum("ij,ij->i", way, along)[:, None] * along, aside)
-    return inner
+        values[wide] += np.where(sharp, np.einsum("ij,ij->i", way, along)[:, None] * along, aside)
+    return values
 
 
 def relaxed(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> Floats:

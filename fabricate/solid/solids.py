@@ -9,16 +9,18 @@ from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.clearance import check_necks
-from fabricate.solid.faults import crossing_points, near_points
-from fabricate.solid.inset import SAFE_DEPTH, capped_depth, downward, relaxed, retreated, slid
+from fabricate.solid.faults import crossing_points, folded_points, near_points
+from fabricate.solid.inset import SAFE_DEPTH, capped_depth, downward, relaxed, retreated, slid, spread
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.mitre import Mitred, ways_out
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 
-RETREAT_FROM, ALL_ROUNDS, PATIENCE = 4, 60, 12
-"""Round from which stubborn places retreat, rounds in all, and how many in which only the gap is too small and does
-not get better; the checks report what is left."""
+SPREAD_FROM, RETREAT_FROM, ALL_ROUNDS = 3, 6, 60
+"""Rounds from which stubborn places spread and retreat, and rounds in all; the checks report what is left."""
+
+PATIENCE = 12
+"""Rounds of retreat in which nothing gets better, before the rest is left as it is."""
 
 CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
@@ -48,25 +50,27 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     for step in range(ALL_ROUNDS):
         made = assembly(surface, inner, clearance=clearance, core=core)
         crossing, near = _faults(made, clearance, moved, all_kinds=step < RETREAT_FROM)
-        if not (crossing | near).any():
+        faulty = crossing | near
+        if step < RETREAT_FROM:
+            faulty |= folded_points(surface, inner)
+        if not faulty.any():
             break
         left = (int(crossing.sum()), int(near.sum()))
         if step >= RETREAT_FROM:
             fewest, waited = min(fewest, left), waited + 1 if left >= fewest else 0
             if waited == PATIENCE:
                 break
-        mended = _mended(surface, inner, crossing | near, means, safe=safe, retreating=step >= RETREAT_FROM)
+        mended = _mended(surface, inner, faulty, means, safe=safe, step=step)
         moved = (mended != inner).any(axis=1)
         inner = mended
     return made
 
 
-def _mended(
-    surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array, *, safe: Floats, retreating: bool
-) -> Floats:
-    if retreating:
+def _mended(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array, *, safe: Floats, step: int) -> Floats:
+    if step >= RETREAT_FROM:
         return retreated(surface, inner, faulty, means, safe=safe)
-    return relaxed(surface, slid(surface, inner, faulty, means), faulty, means)
+    moved = (slid if step < SPREAD_FROM else spread)(surface, inner, faulty, means)
+    return relaxed(surface, moved, faulty, means)
 
 
 def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> tuple[Mask, Mask]:

@@ -14,7 +14,7 @@ from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, frozen
 from fabricate.surface.embedding import Embedding
-from fabricate.surface.smoothing import filled, low_pass, passes_over
+from fabricate.surface.smoothing import diffused, filled, low_pass, passes_over
 from fabricate.surface.stepping import stepped, untangled
 from fabricate.surface.target import Target
 from fabricate.triangles.normals import unit, vertex_normals
@@ -93,7 +93,7 @@ def carried(
     edge = float(np.median(np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1)))
     smooth = points + low_pass(outer - points, embedding.means, passes=passes_over(smoothing, edge))
     base = stepped(outer, smooth, embedding.means, embedding.faults_since(outer))
-    return Carried(outer, base, vertex_normals(base, triangles))
+    return Carried(outer, base, unit(diffused(vertex_normals(base, triangles), base, triangles, length=smoothing)))
 
 
 def _slid(points: Floats, start: Floats, normals: Floats, means: csr_array) -> Floats:

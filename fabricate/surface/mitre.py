@@ -22,6 +22,7 @@ from scipy.sparse import coo_array, csr_array, diags_array
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.surface.conjugate_gradients import solved
 from fabricate.surface.limit import LimitSurface, Samples
 from fabricate.surface.template import TileTemplate
 from fabricate.triangles.normals import unit
@@ -46,9 +47,6 @@ there into the faces. From a corner straight into faces they would fade the fast
 
 ALIGNED = 0.9
 """Cosine from which an edge between two points of creases lies on one."""
-
-SOLVED, MOST_ROUNDS = 1e-8, 1000
-"""Residual to which steps aside are solved for, as a share of the first squared one, and rounds at most."""
 
 
 class CreaseSides(NamedTuple):
@@ -152,26 +150,10 @@ def _along_creases(points: Floats, triangles: Indices, mitred: Mitred, reach: fl
 
 
 def _spread(operator: csr_array, ways: Floats, on_crease: Mask, along: Floats) -> Floats:
-    """Return the field, (n, 3), of least energy that keeps `ways` on creases but for what is `along` them.
-
-    Conjugate gradients, written out: sums of library kernels depend on the number of their threads.
-    """
+    """Return the field, (n, 3), of least energy that keeps `ways` on creases but for what is `along` them."""
 
     def free(values: Floats) -> Floats:
         return np.where(on_crease[:, None], np.einsum("ij,ij->i", values, along)[:, None] * along, values)
 
-    inverse = 1.0 / operator.diagonal()[:, None]
-    field = np.where(on_crease[:, None], ways, 0.0)
-    residual = -free(operator @ field)
-    step = inverse * residual
-    size = first = float((residual * step).sum())
-    for _ in range(MOST_ROUNDS):
-        if size <= SOLVED * first:
-            break
-        change = free(operator @ step)
-        share = size / float((step * change).sum())
-        field, residual = field + share * step, residual - share * change
-        scaled = inverse * residual
-        before, size = size, float((residual * scaled).sum())
-        step = scaled + (size / before) * step
-    return field
+    start = np.where(on_crease[:, None], ways, 0.0)
+    return solved(operator, np.zeros_like(start), start, free=free)

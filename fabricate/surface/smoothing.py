@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import igl
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csr_array, diags_array
 
-from fabricate.arrays import Floats
+from fabricate.arrays import Floats, Indices
+from fabricate.surface.conjugate_gradients import solved
 
 
 def filled(values: Floats, weight: Floats, means: csr_array, *, passes: int) -> Floats:
@@ -26,6 +28,18 @@ def low_pass(values: Floats, means: csr_array, *, passes: int) -> Floats:
     smooth = _averaged(values, means, passes)
     kept: Floats = smooth + _averaged(values - smooth, means, passes)
     return kept
+
+
+def diffused(values: Floats, points: Floats, triangles: Indices, *, length: float) -> Floats:
+    """Return values, (n, 3), of a closed surface without what varies over less than about `length`, mm.
+
+    One implicit step of the heat equation. It is measured on the surface and not in edges, so it is as thorough
+    where points crowd together.
+    """
+    stiffness = csr_array(igl.cotmatrix(points, triangles))
+    areas = csr_array(igl.massmatrix(points, triangles, igl.MASSMATRIX_TYPE_BARYCENTRIC)).diagonal()
+    operator = csr_array(diags_array(areas) - (0.5 * length) ** 2 * stiffness)
+    return solved(operator, areas[:, None] * values, values, free=lambda change: change)
 
 
 def passes_over(length: float, edge: float) -> int:
