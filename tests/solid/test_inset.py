@@ -1,6 +1,8 @@
-"""The inner surface: depth where the body is thin, and points that slide, relax or retreat only where they should."""
+"""The inner surface: depth where the body is thin, and points that move where they should."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -8,7 +10,7 @@ import pytest
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
-from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, downward, relaxed, retreated, slid
+from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, downward, relaxed, retreated, slid, spread
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -63,13 +65,23 @@ def test_even_a_hopeless_body_keeps_a_tenth(ball: CutSurface) -> None:
     )
 
 
-def test_sliding_keeps_every_depth_and_all_that_is_far(surface: CutSurface) -> None:
+@pytest.mark.parametrize("way", [slid, spread])
+def test_sliding_keeps_every_depth_and_all_that_is_far(surface: CutSurface, way: Callable[..., np.ndarray]) -> None:
     means = neighbour_means(surface.triangles, count=len(surface.points))
     inner, faulty = under(surface), one(surface)
-    moved = slid(surface, inner, faulty, means) - inner
+    moved = way(surface, inner, faulty, means) - inner
     assert moved[faulty].any()
     assert np.einsum("ij,ij->i", moved, surface.normals) == pytest.approx(0.0, abs=1e-9)
     assert not moved[~grown(faulty, means, 40)].any()
+
+
+def test_sliding_keeps_the_pattern_and_spreading_evens_it_out(surface: CutSurface) -> None:
+    """Points that all moved alike stay when they slide; when they spread they move, as the pattern is uneven."""
+    means = neighbour_means(surface.triangles, count=len(surface.points))
+    everywhere = np.ones(len(surface.points), dtype=bool)
+    alike = surface.base + np.array([0.3, -0.2, 0.1])
+    assert slid(surface, alike, everywhere, means) == pytest.approx(alike, abs=1e-12)
+    assert np.abs(spread(surface, alike, everywhere, means) - alike).max() > 0.1
 
 
 def test_relaxing_flattens_a_spike_and_leaves_what_is_far(surface: CutSurface) -> None:
@@ -101,12 +113,13 @@ def test_a_ray_retreats_as_a_whole(surface: CutSurface) -> None:
     assert way[0] > 0
 
 
-@pytest.mark.parametrize("kind", ["slid", "relaxed", "retreated"])
+@pytest.mark.parametrize("kind", ["slid", "spread", "relaxed", "retreated"])
 def test_nothing_faulty_moves_nothing(surface: CutSurface, kind: str) -> None:
     means = neighbour_means(surface.triangles, count=len(surface.points))
     inner, none = under(surface), np.zeros(len(surface.points), dtype=bool)
     result = {
         "slid": lambda: slid(surface, inner, none, means),
+        "spread": lambda: spread(surface, inner, none, means),
         "relaxed": lambda: relaxed(surface, inner, none, means),
         "retreated": lambda: retreated(surface, inner, none, means, safe=surface.points),
     }[kind]()

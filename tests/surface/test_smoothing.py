@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import seeds
 
-from fabricate.surface.smoothing import filled, low_pass, passes_over
+from fabricate.surface.smoothing import diffused, filled, low_pass, passes_over
 from fabricate.triangles.adjacency import neighbour_means
 
 BALL = trimesh.creation.icosphere(subdivisions=3)
@@ -83,3 +83,27 @@ def test_fine_detail_is_taken_out() -> None:
 
 def test_a_length_below_an_edge_takes_one_pass() -> None:
     assert passes_over(0.01, 1.0) == 1
+
+
+def test_a_diffused_constant_stays() -> None:
+    constant = np.tile([1.0, -2.0, 3.0], (len(POINTS), 1))
+    np.testing.assert_allclose(diffused(constant, POINTS, np.array(BALL.faces), length=0.5), constant, atol=1e-6)
+
+
+@pytest.mark.parametrize("length", [0.2, 0.5, 2.0])
+def test_diffusion_on_the_unit_ball_shrinks_spherical_harmonics_as_the_heat_equation_says(length: float) -> None:
+    """Coordinates are harmonics of degree 1, with eigenvalue 2; x y is one of degree 2, with eigenvalue 6."""
+    values = np.stack([POINTS[:, 0], POINTS[:, 2], POINTS[:, 0] * POINTS[:, 1]], axis=1)
+    time = (0.5 * length) ** 2
+    wanted = values / (1.0 + time * np.array([2.0, 2.0, 6.0]))
+    np.testing.assert_allclose(diffused(values, POINTS, np.array(BALL.faces), length=length), wanted, atol=0.01)
+
+
+def test_diffusion_is_measured_on_the_surface_and_not_in_edges() -> None:
+    """The same field on a ball that is four times as fine comes out the same."""
+    fine = trimesh.creation.icosphere(subdivisions=5)
+    coarse_field = diffused(POINTS, POINTS, np.array(BALL.faces), length=1.0)
+    points = np.array(fine.vertices)
+    fine_field = diffused(points, points, np.array(fine.faces), length=1.0)
+    same = fine_field[trimesh.proximity.ProximityQuery(fine).vertex(POINTS)[1]]
+    np.testing.assert_allclose(same, coarse_field, atol=0.01)
