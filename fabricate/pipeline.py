@@ -5,6 +5,7 @@ from __future__ import annotations
 import platform
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from time import perf_counter
@@ -34,9 +35,14 @@ from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.tiling import Tiling, input_surface, new_tiling, own_tiling, smooth_surface, too_fine
+from fabricate.surface.tile_choice import TileWish, chosen_tiling
+from fabricate.surface.tiling import Tiling
+from fabricate.surface.widening import widened
 
 LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf")
+
+NECK_MARGIN = 1.05
+"""How much wider necks are asked for than the process needs: on the finished surface they may be a little narrower."""
 
 
 def run(
@@ -82,13 +88,17 @@ def _bodies(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, 
 
 def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _Stopwatch, store: Store) -> Report:
     """Make the two parts of one body."""
-    pattern, solid = config.pattern, config.solid
+    pattern, solid, process = config.pattern, config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
-    tiling = _tiling(body.mesh, config, watch.tell, store)
+    wish, limit = _wish(config)
+    grow = partial(grown_duotone, tree=pattern.tree, seed=pattern.seed)
+    tiling = chosen_tiling(body.mesh, wish, grow=grow, progress=watch.tell, store=store)
     watch.begin("duotone")
-    duotone = grown_duotone(tiling.quads, tree=pattern.tree, seed=pattern.seed)
+    duotone = grow(tiling.quads)
     certificate = certified(duotone)
     watch.begin("cut")
+    if tiling.surface is not None:
+        duotone = widened(duotone, arc=pattern.arc, neck=_neck(config))
     surface = _surface(duotone, tiling, config)
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
@@ -103,14 +113,14 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
             certificate,
             clearance=solid.clearance,
             core=solid.core,
-            process=PROCESSES[config.process.name],
+            process=process,
         )
         judged = judged_parts([read_part(path) for path in paths], wanted)
         report = Report(
             name=name,
             config_sha256=config_sha256(config),
             versions=_versions(),
-            mesh=mesh_facts(body, tiling, surface),
+            mesh=mesh_facts(body, replace(tiling, notes=limit + tiling.notes), surface),
             pattern=pattern_facts(duotone, certificate, surface),
             parts=judged.parts,
             fit=judged.fit,
@@ -153,31 +163,30 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
     )
 
 
-def _tiling(mesh: PolygonMesh, config: Config, progress: Callable[[str], None], store: Store) -> Tiling:
-    """Return the tiles of a body: of new cells where they are asked for, or a file's own are too fine."""
+def _wish(config: Config) -> tuple[TileWish, tuple[str, ...]]:
+    """Return what the config asks of the tiles, and the sentence that says what bound their size, if it is free."""
     source, pattern, prepare = config.source, config.pattern, config.prepare
-    size, from_file, round_limit = source.size, isinstance(source, FileConfig), isinstance(source, SphereConfig)
-    tile_size, limit = _tile_size(config)
-    cells = prepare.cells
-    if cells == "auto" and from_file and tile_size is not None and too_fine(mesh, size=size, tile_size=tile_size):
-        cells = "quads"
-    if cells == "auto" or cells == "as-is" or tile_size is None:  # one by one, so that types narrow
-        made = own_tiling(mesh, size=size, tile_size=tile_size, levels=pattern.levels, round_limit=round_limit)
-    else:
-        whole = (
-            input_surface(mesh, size=size) if from_file else smooth_surface(mesh, size=size, round_limit=round_limit)
-        )
-        made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=prepare.seed, progress=progress, store=store)
-    return replace(made, notes=limit + made.notes)
+    feature, clearance = PROCESSES[config.process.name].feature_min, config.solid.clearance
+    wish = TileWish(
+        size=source.size,
+        tile_size=None if pattern.tile_size == "auto" else pattern.tile_size,
+        levels=pattern.levels,
+        cells=prepare.cells,
+        neck=_neck(config) if pattern.tile_size == "auto" else None,
+        arc=pattern.arc,
+        seed=prepare.seed,
+        cage=not isinstance(source, FileConfig),
+        round_limit=isinstance(source, SphereConfig),
+    )
+    if pattern.tile_size != "auto":
+        return wish, ()
+    finest = finest_tile(feature, clearance, extent=source.size, arc=pattern.arc)
+    return replace(wish, tile_size=finest.tile_size), (finest.limit,)
 
 
-def _tile_size(config: Config) -> tuple[float | None, tuple[str, ...]]:
-    """Return the tile size in mm, None if levels are asked for, and the sentence that says what bound it."""
-    if config.pattern.tile_size != "auto":
-        return config.pattern.tile_size, ()
-    feature = PROCESSES[config.process.name].feature_min
-    found = finest_tile(feature, config.solid.clearance, extent=config.source.size, arc=config.pattern.arc)
-    return found.tile_size, (found.limit,)
+def _neck(config: Config) -> float:
+    """Return how wide necks have to be before clearance is taken off for the process to print them, mm."""
+    return NECK_MARGIN * (PROCESSES[config.process.name].feature_min + config.solid.clearance)
 
 
 def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:

@@ -297,18 +297,12 @@ def test_every_config_makes_a_sound_pair(path: Path, tmp_path: Path) -> None:
     assert not failed(report, with_printability=False)
     assert report.pattern is not None
     assert (report.pattern.curves, report.pattern.regions) == (1, 2)
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not JUDGE, reason="FABRICATE_VERIFY names no judge of STL files")
-@pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
-def test_an_independent_judge_agrees(path: Path, tmp_path: Path) -> None:
-    run(path, tmp_path, *COARSE.get(path.stem, ROUGH))
-    clearance = load_config(path).solid.clearance
-    parts = [str(tmp_path / path.stem / f"{name}.stl") for name in ("yellow", "blue")]
-    sizes = ["--clearance", str(clearance)] if clearance else []
-    judged = subprocess.run([sys.executable, JUDGE, *parts, *sizes], capture_output=True, text=True, check=False)
-    assert judged.returncode == 0, judged.stdout + judged.stderr
+    if JUDGE:
+        folder, clearance = tmp_path / path.stem, load_config(path).solid.clearance
+        parts = [str(folder / f"{name}.stl") for name in ("yellow", "blue")]
+        sizes = ["--clearance", str(clearance)] if clearance else []
+        judged = subprocess.run([sys.executable, JUDGE, *parts, *sizes], capture_output=True, text=True, check=False)
+        assert judged.returncode == 0, judged.stdout + judged.stderr
 
 
 @pytest.mark.slow

@@ -19,7 +19,7 @@ from fabricate.solid.assembly import Assembly, Core
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.deviation import deviation
 from fabricate.surface.neck import tile_necks
-from fabricate.surface.sizing import tile_sides
+from fabricate.surface.sizing import typical_side
 from fabricate.surface.tiling import Tiling
 
 
@@ -53,7 +53,7 @@ def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurfac
     necks = tile_necks(surface)[0]
     return PatternFacts(
         tiles=len(duotone.joined),
-        tile_size_mm=float(np.median(tile_sides(duotone.quads))),
+        tile_size_mm=typical_side(duotone.quads),
         tile_quality=tile_quality(duotone.quads.points[duotone.quads.tiles]),
         curves=certificate.curves,
         regions=certificate.yellow.components + certificate.blue.components,

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from fabricate.duotone.duotone import Duotone
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.solid.settling import settled
@@ -14,7 +12,7 @@ from fabricate.surface.detail import carried
 from fabricate.surface.detail_resolution import detail_resolution
 from fabricate.surface.limit import LimitSurface
 from fabricate.surface.resolution import resolution_for
-from fabricate.surface.sizing import tile_sides
+from fabricate.surface.sizing import typical_side
 
 
 def detailed_cut(duotone: Duotone, onto: TriangleMesh, *, arc: float, tolerance: float, clearance: float) -> CutSurface:
@@ -29,7 +27,7 @@ def detailed_cut(duotone: Duotone, onto: TriangleMesh, *, arc: float, tolerance:
     SolidError
         If the clearance does not fit, or the smooth surface crosses itself beyond mending.
     """
-    side = float(np.median(tile_sides(duotone.quads)))
+    side = typical_side(duotone.quads)
     resolution = max(
         resolution_for(duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance),
         detail_resolution(onto.points, onto.triangles, tile_side=side),

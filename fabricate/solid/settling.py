@@ -11,17 +11,15 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_array
 
-from fabricate.arrays import Floats, Mask
+from fabricate.arrays import Mask
 from fabricate.duotone.duotone import Duotone
-from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.errors import SolidError
 from fabricate.solid.clearance import check_necks, clearance_shares, ray_sides, too_near
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
 from fabricate.surface.resolution import resolution_for
-from fabricate.triangles.normals import unit
+from fabricate.surface.tile_sliding import slid_tiles
 
 ENOUGH = 0.99
 """Share of the clearance that copies of the curve must be apart."""
@@ -32,9 +30,8 @@ BENEATH = 0.08
 MOST_TIGHT = 0.1
 """With a larger share of tight tiles there is no room to take from."""
 
-ROUNDS, PATIENCE, STEP = 40, 4, 0.25
-"""Rounds of measuring and sliding, rounds without progress before giving up, and the share of the way to the mean
-that points move in each."""
+ROUNDS, PATIENCE = 40, 4
+"""Rounds of measuring and sliding, and rounds without progress before giving up."""
 
 
 def fitted_cut(duotone: Duotone, *, arc: float = 0.5, tolerance: float = 0.05, clearance: float = 0.0) -> CutSurface:
@@ -70,7 +67,7 @@ def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) 
         fewest, waited = min(fewest, int(tight.sum())), waited + 1 if tight.sum() >= fewest else 0
         if not tight.any() or waited == PATIENCE:
             break
-        quads = _slid(quads, tight)
+        quads = slid_tiles(quads, tight)
         surface = cut(replace(duotone, quads=quads), LimitSurface.of(quads), arc=arc, resolution=resolution)
     return surface
 
@@ -88,46 +85,3 @@ def tight_tiles(surface: CutSurface, *, clearance: float) -> Mask:
     tight: Mask = np.zeros(len(surface.order) // 2, dtype=bool)
     tight[surface.order[near.reshape(len(surface.order), -1).any(axis=1)] // 2] = True
     return tight
-
-
-def _slid(quads: QuadMesh, tight: Mask) -> QuadMesh:
-    """Move the control points of the tight tiles and their neighbours within their tangent planes.
-
-    Those on creases move along these; corners and darts stay.
-    """
-    tail = quads.tiles.ravel()
-    head = np.roll(quads.tiles, -1, axis=1).ravel()
-    count = len(quads.points)
-    valence = np.bincount(tail, minlength=count)
-    means = coo_array((1.0 / valence[tail], (tail, head)), shape=(count, count)).tocsr()
-    moving: Mask = np.zeros(count, dtype=bool)
-    moving[quads.tiles[tight]] = True
-    moving |= means @ moving.astype(np.float64) > 0.0
-    way = means @ quads.points - quads.points
-    normals = _control_normals(quads)
-    way -= np.einsum("ij,ij->i", way, normals)[:, None] * normals
-    if quads.creases.any():
-        way = np.where(quads.crease_counts[:, None] == 0, way, _ways_along_creases(quads))
-    return replace(quads, points=quads.points + STEP * moving[:, None] * way)
-
-
-def _ways_along_creases(quads: QuadMesh) -> Floats:
-    """Return the way of each point on a crease along it, to beside the mean of its two neighbours there, (n, 3)."""
-    count = len(quads.points)
-    tail, head = quads.tiles.ravel()[quads.creases], np.roll(quads.tiles, -1, axis=1).ravel()[quads.creases]
-    through = np.flatnonzero(quads.crease_counts == 2)
-    ends = head[np.argsort(tail, kind="stable")][np.isin(np.sort(tail), through)].reshape(-1, 2)
-    first, second = quads.points[ends[:, 0]], quads.points[ends[:, 1]]
-    along = unit(second - first)
-    to_mean = 0.5 * (first + second) - quads.points[through]
-    ways = np.zeros((count, 3))
-    ways[through] = np.einsum("ij,ij->i", to_mean, along)[:, None] * along
-    return ways
-
-
-def _control_normals(quads: QuadMesh) -> Floats:
-    """Return unit normals of the control mesh at its points, (n, 3) float."""
-    corners = quads.points[quads.tiles]
-    facet = np.repeat(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), 4, axis=0)
-    columns = [np.bincount(quads.tiles.ravel(), axis, minlength=len(quads.points)) for axis in facet.T]
-    return unit(np.stack(columns, axis=1))

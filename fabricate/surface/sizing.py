@@ -34,6 +34,11 @@ def tile_sides(quads: QuadMesh) -> Floats:
     return sides
 
 
+def typical_side(quads: QuadMesh) -> float:
+    """Return the median side of the tiles on the limit surface, mm."""
+    return float(np.median(tile_sides(quads)))
+
+
 def tiled(mesh: PolygonMesh, *, tile_size: float) -> QuadMesh:
     """Return the mesh subdivided until its median tile side is as near to `tile_size` mm as it gets.
 
@@ -85,4 +90,4 @@ def divided(mesh: PolygonMesh, *, levels: int) -> QuadMesh:
 
 def _miss(quads: QuadMesh, tile_size: float) -> float:
     """Return by how many halvings the median tile side is too long, negative when it is too short."""
-    return float(np.log2(float(np.median(tile_sides(quads))) / tile_size))
+    return float(np.log2(typical_side(quads) / tile_size))

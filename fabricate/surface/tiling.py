@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -10,6 +11,7 @@ import numpy as np
 from fabricate.duotone.catmull_clark import catmull_clark, subdivided
 from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
 from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.prepare.density import FEWEST_TILES
 from fabricate.prepare.remesh import Cells, remeshed
 from fabricate.prepare.store import NOTHING_KEPT, Kept, Store
 from fabricate.prepare.tile_sides import tile_sides
@@ -17,7 +19,7 @@ from fabricate.prepare.triangle_mesh import TriangleMesh, fanned
 from fabricate.surface.fitting import fitted
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.roundness import polygons, rounded
-from fabricate.surface.sizing import ENOUGH_TILES, divided, sized, tiled
+from fabricate.surface.sizing import ENOUGH_TILES, divided, sized, tiled, typical_side
 
 TOO_FINE = 2.5
 """A file's own cells are too fine when their tiles are smaller than those asked for by more than this factor."""
@@ -69,6 +71,27 @@ def own_tiling(
     return Tiling(divided(mesh, levels=steps) if steps else two_coloured(mesh), None, ())
 
 
+def own_tilings(mesh: PolygonMesh, *, size: float, tile_size: float, round_limit: bool) -> tuple[Tiling, ...]:
+    """Return the tilings of a body's own cells, from that nearest to `tile_size` mm to coarser and coarser ones.
+
+    Those with tiles larger than an eighth of the body are left out, but for the first.
+
+    Raises
+    ------
+    PatternError
+        As `own_tiling`.
+    """
+    first = own_tiling(mesh, size=size, tile_size=tile_size, levels=None, round_limit=round_limit)
+    coarser: list[Tiling] = []
+    for levels in itertools.count(1):
+        tiling = own_tiling(mesh, size=size, tile_size=None, levels=levels, round_limit=round_limit)
+        if len(tiling.quads.tiles) >= len(first.quads.tiles):
+            break
+        if typical_side(tiling.quads) * FEWEST_TILES <= size:
+            coarser.insert(0, tiling)
+    return (first, *coarser)
+
+
 def new_tiling(
     surface: TriangleMesh,
     *,
@@ -104,10 +127,15 @@ def too_fine(mesh: PolygonMesh, *, size: float, tile_size: float) -> bool:
 
     Other polygons were laid out by somebody, and are kept.
     """
-    if float(np.mean(mesh.face_sizes == TRIANGLE)) < MOSTLY:
+    if not mostly_triangles(mesh):
         return False
     extent = float(np.ptp(mesh.points, axis=0).max())
     return float(np.median(tile_sides(mesh))) * size / extent * TOO_FINE < tile_size
+
+
+def mostly_triangles(mesh: PolygonMesh) -> bool:
+    """Tell whether a mesh is a triangulated surface, as scans and exports are, and no cage."""
+    return float(np.mean(mesh.face_sizes == TRIANGLE)) >= MOSTLY
 
 
 def input_surface(mesh: PolygonMesh, *, size: float) -> TriangleMesh:

@@ -1,0 +1,113 @@
+"""Which tiles are chosen: own cells as long as they do, coarser ones for wide necks, new ones as a last resort."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from fabricate.duotone.spanning_tree import grown_duotone
+from fabricate.mesh.cube import cube
+from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.mesh.sphere import geodesic_sphere
+from fabricate.mesh.torus import torus
+from fabricate.prepare.remesh import Cells, Remeshed
+from fabricate.surface.sizing import typical_side
+from fabricate.surface.tile_choice import TileWish, chosen_tiling
+from fabricate.surface.tiling import Tiling
+from fabricate.surface.widening import coarse_necks
+
+GROW = partial(grown_duotone, tree="random", seed=3)
+RING = torus(around=12, across=6, tube=0.45)
+WISH = TileWish(
+    size=100.0,
+    tile_size=5.0,
+    levels=None,
+    cells="auto",
+    neck=None,
+    arc=0.5,
+    seed=0,
+    cage=True,
+    round_limit=False,
+)
+
+
+@pytest.fixture(autouse=True)
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Cells, int]]:
+    """Make new cells of any kind at once, and write down which were asked for and of how many faces."""
+    calls: list[tuple[Cells, int]] = []
+
+    def remeshed(mesh: PolygonMesh, *, cells: Cells, **_: object) -> Remeshed:
+        calls.append((cells, len(mesh.offsets) - 1))
+        return Remeshed(RING.scaled(50.0), ("made new",))
+
+    monkeypatch.setattr("fabricate.surface.tiling.remeshed", remeshed)
+    return calls
+
+
+def chosen(mesh: PolygonMesh, wish: TileWish) -> Tiling:
+    return chosen_tiling(mesh, wish, grow=GROW, progress=lambda _: None)
+
+
+def test_own_cells_are_taken_when_nothing_speaks_against_them(asked: list[tuple[Cells, int]]) -> None:
+    tiling = chosen(RING, WISH)
+    assert typical_side(tiling.quads) == pytest.approx(5.0, rel=0.42)
+    assert (tiling.surface, tiling.notes, asked) == (None, (), [])
+
+
+def test_levels_count(asked: list[tuple[Cells, int]]) -> None:
+    assert len(chosen(RING, replace(WISH, tile_size=None, levels=2)).quads.tiles) == 72 * 16
+    assert not asked
+
+
+def test_narrow_necks_ask_for_coarser_tiles_and_say_so() -> None:
+    fine = chosen(RING, WISH)
+    narrowest = coarse_necks(GROW(fine.quads), arc=0.5).min()
+    coarse = chosen(RING, replace(WISH, neck=1.5 * narrowest))
+    assert typical_side(coarse.quads) > 1.5 * typical_side(fine.quads)
+    assert coarse_necks(GROW(coarse.quads), arc=0.5).min() >= 1.5 * narrowest
+    assert "larger" in coarse.notes[0]
+
+
+def test_necks_wide_enough_change_nothing() -> None:
+    fine = chosen(RING, WISH)
+    narrowest = coarse_necks(GROW(fine.quads), arc=0.5).min()
+    again = chosen(RING, replace(WISH, neck=0.99 * narrowest))
+    assert (again.quads.points == fine.quads.points).all()
+    assert again.notes == ()
+
+
+@pytest.mark.parametrize(("cells", "new"), [("auto", True), ("as-is", False)])
+def test_necks_that_no_division_has_ask_for_new_cells(cells: str, new: bool, asked: list[tuple[Cells, int]]) -> None:
+    tiling = chosen(RING, replace(WISH, cells=cells, neck=30.0))  # type: ignore[arg-type]
+    assert (tiling.surface is not None) == new
+    assert [kind for kind, _ in asked] == ["quads"] * new
+    assert any("necks" in note for note in tiling.notes) == new
+
+
+@pytest.mark.parametrize("cells", ["quads", "triangles", "hexagons"])
+def test_new_cells_are_made_when_they_are_asked_for(cells: Cells, asked: list[tuple[Cells, int]]) -> None:
+    assert chosen(RING, replace(WISH, cells=cells)).notes == ("made new",)
+    assert [kind for kind, _ in asked] == [cells]
+
+
+def test_fine_triangles_get_new_quads_on_themselves(asked: list[tuple[Cells, int]]) -> None:
+    scan = geodesic_sphere(frequency=12)
+    chosen(scan, replace(WISH, tile_size=20.0, cage=False))
+    assert asked == [("quads", len(scan.offsets) - 1)]
+
+
+@pytest.mark.parametrize(("cage", "cells", "smooth"), [(True, "quads", True), (False, "quads", False)])
+def test_a_cage_gets_new_cells_on_its_smooth_surface(
+    cage: bool,
+    cells: Cells,
+    smooth: bool,
+    asked: list[tuple[Cells, int]],
+) -> None:
+    tiling = chosen(cube(divisions=2), replace(WISH, cage=cage, cells=cells))
+    assert tiling.surface is not None
+    reach = np.linalg.norm(tiling.surface.points, axis=1).max()
+    assert (reach < 0.8 * 50.0 * np.sqrt(3.0)) == smooth
+    assert (asked[0][1] > 1000) == smooth
