@@ -6,11 +6,8 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.solid.assembly import Assembly
-from fabricate.surface.cut import CutSurface
-from fabricate.triangles.adjacency import facing_pairs
 from fabricate.triangles.crossing import crossing_triangles, triangles_near
 from fabricate.triangles.edge_pieces import EdgePieces, near_edges
-from fabricate.triangles.normals import area_vectors, unit
 from fabricate.triangles.search_tree import SearchTree
 
 GAP_SHARE = 0.965
@@ -18,9 +15,6 @@ GAP_SHARE = 0.965
 
 PROMISED_SHARE = 0.955
 """Below this share it is certain to be found; the promise to the user is 0.95."""
-
-FOLDED = -0.5
-"""Cosine between the normals of two neighbouring triangles below which the surface folds back there."""
 
 AT_RIM = 1e-3
 """Nearer than this to the outer layer a place on a wall is on it, mm."""
@@ -38,24 +32,6 @@ def crossing_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mas
     pairs = crossing_triangles(assembly.points, triangles)
     inside = ~_outer(assembly, clearance)[triangles].all(axis=1)
     return _surface_points(assembly, triangles[pairs[inside[pairs].any(axis=1)]].ravel())
-
-
-def folded_points(surface: CutSurface, inner: Floats) -> Mask:
-    """Return the surface points, (n,) bool, at edges over which the inner surface folds back and the outer does not.
-
-    Such a fold need not cross anything: all triangles that overlap may share a corner. But the wall ends in fins.
-    """
-    pairs = facing_pairs(surface.triangles)
-    outside, inside = (_cosines(points, surface.triangles, pairs) for points in (surface.points, inner))
-    folded: Mask = np.zeros(len(inner), dtype=bool)
-    folded[surface.triangles[pairs[(inside < FOLDED) & (outside > -FOLDED)]]] = True
-    return folded
-
-
-def _cosines(points: Floats, triangles: Indices, pairs: Indices) -> Floats:
-    normals = unit(area_vectors(points, triangles))
-    cosines: Floats = np.einsum("ij,ij->i", normals[pairs[:, 0]], normals[pairs[:, 1]])
-    return cosines
 
 
 def near_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:

@@ -1,9 +1,10 @@
 """The inner surface: one point under every point of the outer one, as deep as the wall is thick.
 
 Straight down by the thickness folds wherever the surface bends more sharply than that, or the body is thinner than two
-walls. So the depth is capped where the body is thin, and where an exact test finds a fault the inner points around it
-slide sideways to where there is room and are relaxed: moved towards the mean of their neighbours, which opens a fold
-without thinning the wall. Only what this does not cure is moved back towards the surface.
+walls. So the ways in are evened out over the surface, and the depth is capped where the body is thin. Where an exact
+test finds a fault all the same, the inner points around it slide sideways to where there is room and are relaxed, that
+is moved towards the mean of their neighbours, which opens a fold without thinning the wall. Only what this does not
+cure is moved back towards the surface.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Mask
 from fabricate.surface.cut import CutSurface
+from fabricate.surface.mitre import Mitred, ways_out
+from fabricate.surface.smoothing import diffused
 from fabricate.triangles.adjacency import grown, undirected_edges
 from fabricate.triangles.normals import area_vectors, unit
 from fabricate.triangles.ray_casting import first_hits
@@ -24,6 +27,11 @@ START = 1e-3
 """How far under the surface a ray begins, mm, so that it does not hit where it comes from."""
 
 SLOPE_PASSES = 30
+EVENED, LEAST_UPRIGHT = 2.5, 0.7
+"""Over how many thicknesses normals are evened out, and the smallest cosine of a leaning way that is made up for.
+
+At an edge of 90 degrees ways turn by 0.57 / thickness: by less than 1 / thickness nothing folds."""
+
 RINGS, SWEEPS = 3, 3
 """How far around a fault points are relaxed, in edges, and how often in a round."""
 
@@ -41,6 +49,23 @@ RETREAT = 0.4
 
 SAFE_DEPTH = 0.03
 """The safe depth, as a share of the capped one."""
+
+
+def ways_in(surface: CutSurface, *, thickness: float) -> Floats:
+    """Return the ways by which points move in for each mm of depth, (n, 3); longer than 1 where they lean.
+
+    The normals of a sharp bend would lead to a fold. So a way is the normal evened out over the surface, by which
+    it leans where the surface bends, and as long as it takes to be as deep under the surface there. Surfaces with
+    creases have ways of their own (see `surface.mitre`).
+    """
+    if (surface.mitre > 1.0).any():
+        mitred = Mitred(surface.normals, surface.mitre, surface.along)
+        return -ways_out(surface.points, surface.triangles, mitred, depth=thickness)
+    even = unit(diffused(surface.normals, surface.base, surface.triangles, length=EVENED * thickness))
+    upright = np.einsum("ij,ij->i", even, surface.normals)[:, None]
+    longer = 1.0 / np.maximum(upright, LEAST_UPRIGHT)
+    ways: Floats = -even * diffused(longer, surface.base, surface.triangles, length=thickness)
+    return ways
 
 
 def downward(surface: CutSurface, ways: Floats) -> Floats:
@@ -87,37 +112,21 @@ def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float, between
     return depth
 
 
-def slid(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> Floats:
+def spread(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> Floats:
     """Return the inner points, those over the tiles around the faulty ones slid sideways at their depth.
 
-    Points gather at a fold. Where they slide to be under the surface much as their neighbours are, the way in
-    becomes more nearly the same for all of them, and the pattern keeps its shape.
-    """
-    return surface.base + _evened(surface, inner - surface.base, faulty, means)
-
-
-def spread(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> Floats:
-    """Return the inner points, those over the tiles around the faulty ones slid towards the mean of their neighbours.
-
-    That hands the crowding at a fold on to where there is room, at the expense of the pattern's shape.
-    """
-    return _evened(surface, inner, faulty, means)
-
-
-def _evened(surface: CutSurface, values: Floats, faulty: Mask, means: csr_array) -> Floats:
-    """Return places or moves, (n, 3), evened out around the faulty points within the surface's tangent planes.
-
-    The thickness stays. Under creases they only change along these.
+    Points gather at a fold. Sliding towards the mean of their neighbours hands the crowding on to where there is
+    room, without changing the thickness. Under creases points only slide along these.
     """
     wide = np.flatnonzero(grown(faulty, means, TILES * (surface.rays.shape[2] - 1)))
     rows, normals = means[wide], surface.normals[wide]
     sharp, along = (surface.mitre > 1.0)[wide, None], surface.along[wide]
-    values = values.copy()
+    inner = inner.copy()
     for _ in range(SLIDES):
-        way = rows @ values - values[wide]
+        way = rows @ inner - inner[wide]
         aside = way - np.einsum("ij,ij->i", way, normals)[:, None] * normals
-        values[wide] += np.where(sharp, np.einsum("ij,ij->i", way, along)[:, None] * along, aside)
-    return values
+        inner[wide] += np.where(sharp, np.einsum("ij,ij->i", way, along)[:, None] * along, aside)
+    return inner
 
 
 def relaxed(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) -> Floats:

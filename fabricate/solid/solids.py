@@ -9,15 +9,14 @@ from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.clearance import check_necks
-from fabricate.solid.faults import crossing_points, folded_points, near_points
-from fabricate.solid.inset import SAFE_DEPTH, capped_depth, downward, relaxed, retreated, slid, spread
+from fabricate.solid.faults import crossing_points, near_points
+from fabricate.solid.inset import SAFE_DEPTH, capped_depth, downward, relaxed, retreated, spread, ways_in
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.mitre import Mitred, ways_out
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 
-SPREAD_FROM, RETREAT_FROM, ALL_ROUNDS = 3, 6, 60
-"""Rounds from which stubborn places spread and retreat, and rounds in all; the checks report what is left."""
+RETREAT_FROM, ALL_ROUNDS = 4, 60
+"""Round from which stubborn places retreat, and rounds in all; the checks report what is left."""
 
 PATIENCE = 12
 """Rounds of retreat in which nothing gets better, before the rest is left as it is."""
@@ -40,10 +39,10 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     _check_sizes(surface, thickness, clearance)
     _check_embedded(surface)
     between = 1.1 * clearance if core == "hollow" else 2.0 * clearance + CORE_WEB
-    mitred = Mitred(surface.normals, surface.mitre, surface.along)
-    down = downward(surface, -ways_out(surface.points, surface.triangles, mitred, depth=thickness))
+    down = ways_in(surface, thickness=thickness)
     depth = capped_depth(surface, down, thickness=thickness, between=between)
-    inner, safe = surface.base + depth[:, None] * down, surface.points + SAFE_DEPTH * depth[:, None] * down
+    inner = surface.base + depth[:, None] * down
+    safe = surface.points + SAFE_DEPTH * depth[:, None] * downward(surface, down)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
     fewest, waited = (len(inner), len(inner)), 0
@@ -51,8 +50,6 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
         made = assembly(surface, inner, clearance=clearance, core=core)
         crossing, near = _faults(made, clearance, moved, all_kinds=step < RETREAT_FROM)
         faulty = crossing | near
-        if step < RETREAT_FROM:
-            faulty |= folded_points(surface, inner)
         if not faulty.any():
             break
         left = (int(crossing.sum()), int(near.sum()))
@@ -69,8 +66,7 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
 def _mended(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array, *, safe: Floats, step: int) -> Floats:
     if step >= RETREAT_FROM:
         return retreated(surface, inner, faulty, means, safe=safe)
-    moved = (slid if step < SPREAD_FROM else spread)(surface, inner, faulty, means)
-    return relaxed(surface, moved, faulty, means)
+    return relaxed(surface, spread(surface, inner, faulty, means), faulty, means)
 
 
 def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> tuple[Mask, Mask]:

@@ -28,6 +28,9 @@ REACH = 0.12
 SLIDES = 5
 """How often points slide within the surface, in a round, towards where their neighbours moved."""
 
+NOISE = 0.5
+"""Length over which the base's normals are evened out, mm: those of crowded points are no better than their places."""
+
 WALL = 2.0
 """Length below which the surface under the detail is smooth, unless asked otherwise, mm."""
 
@@ -93,7 +96,7 @@ def carried(
     edge = float(np.median(np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1)))
     smooth = points + low_pass(outer - points, embedding.means, passes=passes_over(smoothing, edge))
     base = stepped(outer, smooth, embedding.means, embedding.faults_since(outer))
-    return Carried(outer, base, unit(diffused(vertex_normals(base, triangles), base, triangles, length=smoothing)))
+    return Carried(outer, base, unit(diffused(vertex_normals(base, triangles), base, triangles, length=NOISE)))
 
 
 def _slid(points: Floats, start: Floats, normals: Floats, means: csr_array) -> Floats:

@@ -31,7 +31,7 @@ def low_pass(values: Floats, means: csr_array, *, passes: int) -> Floats:
 
 
 def diffused(values: Floats, points: Floats, triangles: Indices, *, length: float) -> Floats:
-    """Return values, (n, 3), of a closed surface without what varies over less than about `length`, mm.
+    """Return values, (n, k), of a closed surface without what varies over less than about `length`, mm.
 
     One implicit step of the heat equation. It is measured on the surface and not in edges, so it is as thorough
     where points crowd together.

@@ -15,13 +15,6 @@ def undirected_edges(triangles: Indices) -> Indices:
     return rising
 
 
-def facing_pairs(triangles: Indices) -> Indices:
-    """Return the numbers of the two triangles at each edge of a closed mesh, (e, 2) int."""
-    ends = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    pairs: Indices = np.lexsort(ends.T).reshape(-1, 2) % len(triangles)
-    return pairs
-
-
 def neighbour_means(triangles: Indices, *, count: int) -> csr_array:
     """Return the (count, count) matrix that takes the mean over the points joined to each point."""
     rows, columns = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).T

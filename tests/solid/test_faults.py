@@ -10,7 +10,7 @@ import pytest
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Assembly, assembly
-from fabricate.solid.faults import crossing_points, folded_points, near_points
+from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -62,30 +62,6 @@ def test_looking_around_the_moved_point_finds_as_much(surface: CutSurface) -> No
     planted, moved = replace(made, points=points), np.arange(len(surface.points)) == number
     near, whole = (crossing_points(planted, clearance=CLEARANCE, moved=m) for m in (moved, everywhere(surface)))
     assert (near == whole).all()
-
-
-def test_a_sound_inner_surface_has_no_fold(surface: CutSurface) -> None:
-    assert not folded_points(surface, surface.points - THICKNESS * surface.normals).any()
-
-
-def test_a_point_pulled_over_its_neighbours_within_the_inner_surface_is_a_fold(surface: CutSurface) -> None:
-    """All triangles that overlap share the point, so nothing crosses."""
-    inner, number = surface.points - THICKNESS * surface.normals, inside_yellow(surface)
-    beside = np.unique(surface.triangles[(surface.triangles == number).any(axis=1)])
-    way = inner[beside] - inner[number]
-    inner[number] += 1.3 * way[np.linalg.norm(way, axis=1).argmax()]
-    found = folded_points(surface, inner)
-    assert found[number]
-    far = np.linalg.norm(surface.points - surface.points[number], axis=1) > 15.0
-    assert not found[far].any()
-
-
-def test_folds_of_the_outer_surface_are_nothing_new(surface: CutSurface) -> None:
-    points, number = surface.points.copy(), inside_yellow(surface)
-    beside = np.unique(surface.triangles[(surface.triangles == number).any(axis=1)])
-    way = points[beside] - points[number]
-    points[number] += 1.3 * way[np.linalg.norm(way, axis=1).argmax()]
-    assert not folded_points(replace(surface, points=points), points).any()
 
 
 def test_crossings_of_the_outer_surface_alone_are_not_cured_here(surface: CutSurface) -> None:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from fabricate.duotone.spanning_tree import grown_duotone
+from fabricate.mesh.cube import cube
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
-from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, downward, relaxed, retreated, slid, spread
+from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, downward, relaxed, retreated, spread, ways_in
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
 from fabricate.triangles.adjacency import grown, neighbour_means
+from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.normals import area_vectors
+from fabricate.triangles.search_tree import SearchTree
 
 DEPTH = 2.0
 
@@ -65,23 +67,13 @@ def test_even_a_hopeless_body_keeps_a_tenth(ball: CutSurface) -> None:
     )
 
 
-@pytest.mark.parametrize("way", [slid, spread])
-def test_sliding_keeps_every_depth_and_all_that_is_far(surface: CutSurface, way: Callable[..., np.ndarray]) -> None:
+def test_sliding_keeps_every_depth_and_all_that_is_far(surface: CutSurface) -> None:
     means = neighbour_means(surface.triangles, count=len(surface.points))
     inner, faulty = under(surface), one(surface)
-    moved = way(surface, inner, faulty, means) - inner
+    moved = spread(surface, inner, faulty, means) - inner
     assert moved[faulty].any()
     assert np.einsum("ij,ij->i", moved, surface.normals) == pytest.approx(0.0, abs=1e-9)
     assert not moved[~grown(faulty, means, 40)].any()
-
-
-def test_sliding_keeps_the_pattern_and_spreading_evens_it_out(surface: CutSurface) -> None:
-    """Points that all moved alike stay when they slide; when they spread they move, as the pattern is uneven."""
-    means = neighbour_means(surface.triangles, count=len(surface.points))
-    everywhere = np.ones(len(surface.points), dtype=bool)
-    alike = surface.base + np.array([0.3, -0.2, 0.1])
-    assert slid(surface, alike, everywhere, means) == pytest.approx(alike, abs=1e-12)
-    assert np.abs(spread(surface, alike, everywhere, means) - alike).max() > 0.1
 
 
 def test_relaxing_flattens_a_spike_and_leaves_what_is_far(surface: CutSurface) -> None:
@@ -113,17 +105,46 @@ def test_a_ray_retreats_as_a_whole(surface: CutSurface) -> None:
     assert way[0] > 0
 
 
-@pytest.mark.parametrize("kind", ["slid", "spread", "relaxed", "retreated"])
+@pytest.mark.parametrize("kind", ["spread", "relaxed", "retreated"])
 def test_nothing_faulty_moves_nothing(surface: CutSurface, kind: str) -> None:
     means = neighbour_means(surface.triangles, count=len(surface.points))
     inner, none = under(surface), np.zeros(len(surface.points), dtype=bool)
     result = {
-        "slid": lambda: slid(surface, inner, none, means),
         "spread": lambda: spread(surface, inner, none, means),
         "relaxed": lambda: relaxed(surface, inner, none, means),
         "retreated": lambda: retreated(surface, inner, none, means, safe=surface.points),
     }[kind]()
     assert (result == inner).all()
+
+
+def test_ways_into_a_ball_are_straight_and_as_long_as_the_depth(ball: CutSurface) -> None:
+    assert ways_in(ball, thickness=DEPTH) == pytest.approx(-ball.normals, abs=0.03)
+
+
+@pytest.fixture(scope="module")
+def ridged() -> CutSurface:
+    """A box whose edges are rounded with a radius of about half of the depth."""
+    quads = tiled(sized(cube(divisions=20), size=40), tile_size=2)
+    return fitted_cut(grown_duotone(quads, tree="random", seed=3), tolerance=0.05)
+
+
+def flips(surface: CutSurface, inner: np.ndarray) -> int:
+    before, after = (area_vectors(points, surface.triangles) for points in (surface.points, inner))
+    return int((np.einsum("ij,ij->i", before, after) < 0).sum())
+
+
+def test_straight_down_a_narrow_ridge_folds_and_the_ways_in_do_not(ridged: CutSurface) -> None:
+    assert flips(ridged, ridged.points - DEPTH * ridged.normals) > 100
+    inner = ridged.points + DEPTH * ways_in(ridged, thickness=DEPTH)
+    assert flips(ridged, inner) == 0
+    assert not len(crossing_triangles(inner, ridged.triangles))
+
+
+def test_beside_a_ridge_the_wall_is_nearly_as_thick_as_asked(ridged: CutSurface) -> None:
+    inner = ridged.points + DEPTH * ways_in(ridged, thickness=DEPTH)
+    distance = SearchTree.of(ridged.points, ridged.triangles).nearest(inner).distance
+    assert distance.min() > 0.65 * DEPTH
+    assert (distance < 0.8 * DEPTH).mean() < 0.03
 
 
 def test_the_way_down_is_against_the_normal_where_the_surface_is_smooth(surface: CutSurface) -> None:

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import directed_edges, hull, on_sphere, seeds, tetrahedron
 
-from fabricate.triangles.adjacency import facing_pairs, grown, neighbour_means, undirected_edges
+from fabricate.triangles.adjacency import grown, neighbour_means, undirected_edges
 
 
 @st.composite
@@ -27,15 +27,6 @@ def test_every_edge_is_there_once(mesh: tuple[np.ndarray, int]) -> None:
     found = undirected_edges(triangles).tolist()
     assert len(found) == len(triangles) * 3 // 2
     assert {tuple(edge) for edge in found} == {tuple(sorted(edge)) for edge in graph_of(triangles).edges}
-
-
-@given(mesh=triangulations())
-def test_pairs_are_the_triangles_at_each_edge(mesh: tuple[np.ndarray, int]) -> None:
-    triangles, _ = mesh
-    corners = [set(triangle) for triangle in triangles.tolist()]
-    pairs = facing_pairs(triangles).tolist()
-    shared = [tuple(sorted(corners[a] & corners[b])) for a, b in pairs]
-    assert sorted(shared) == sorted(tuple(sorted(edge)) for edge in graph_of(triangles).edges)
 
 
 @given(mesh=triangulations(), seed=seeds)
