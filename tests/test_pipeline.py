@@ -45,9 +45,11 @@ FILES = {
 CONFIGS = sorted((Path(__file__).parents[1] / "configs").glob("*.toml"))
 ROUGH = ("pattern.tile_size=14mm", "solid.tolerance=0.4mm")
 FRAME = ("pattern.tile_size=10mm", "solid.tolerance=0.15mm")
-COARSE = {"double-torus": FRAME, "triple-torus": FRAME, "genus-6": FRAME} | dict.fromkeys(
-    ("cells-quads", "cells-triangles", "cells-hexagons"), ("solid.tolerance=0.4mm",)
-)
+COARSE = {
+    **dict.fromkeys(("double-torus", "triple-torus", "genus-6"), FRAME),
+    "cells-quads": ("solid.tolerance=0.4mm",),
+    **dict.fromkeys(("cells-triangles", "cells-hexagons"), ("solid.tolerance=0.4mm", "prepare.detail=smooth")),
+}
 """How coarse configs are run: the thin and narrowly bent bars of frames need smaller triangles, and new cells the tiles
 that they are made for."""
 JUDGE = os.environ.get("FABRICATE_VERIFY", "")

@@ -75,6 +75,8 @@ def rechecked(paths: Sequence[Path], *, clearance: float | None) -> Recheck:
 
 def _rechecked_folder(folder: Path, clearance: float | None) -> Recheck:
     recorded = _recorded(folder / "report.json")
+    if not (folder / "config.toml").is_file():
+        raise ReadError(f"{folder / 'config.toml'}: not found; `fabricate run` wrote it beside the parts: put it back")
     config = load_config(folder / "config.toml")
     handles = recorded.pattern.handles
     parts = [read_part(folder / part.file) for part in recorded.parts.values()]

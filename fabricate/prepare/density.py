@@ -1,4 +1,4 @@
-"""The finest tile that a process can print, and what keeps it from being finer."""
+"""How dense tiles can be: the finest that a process prints, and whether a mesh's own cells are finer than asked."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from fabricate.errors import PrepareError
+from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.prepare.tile_sides import tile_sides
 
 NARROWING = 1.3
 """How much wider the neck of a typical tile must be than the narrowest that prints, as tiles vary.
@@ -17,6 +19,13 @@ not thin: 19 of 20 necks are then wide enough.
 
 FEWEST_TILES = 8
 """A body is divided into at least so many tiles along its longest side: a ball then has about 200."""
+
+
+TOO_FINE = 2.5
+"""A file's own cells are too fine when their tiles are smaller than those asked for by more than this factor."""
+
+TRIANGLE, MOSTLY = 3, 0.9
+"""Corners of a triangle, and the share of the faces that are triangles in scans and exports."""
 
 
 @dataclass(frozen=True)
@@ -93,3 +102,19 @@ def neck_share(arc: float) -> float:
     if not share > 0.0:
         raise PrepareError(f"pattern.arc must be between 0.293 and 0.707 for both colours to have necks, found {arc:g}")
     return share
+
+
+def too_fine(mesh: PolygonMesh, *, size: float, tile_size: float) -> bool:
+    """Tell whether a mesh of triangles has far smaller tiles than those asked for; both lengths in mm.
+
+    Other polygons were laid out by somebody, and are kept.
+    """
+    if not mostly_triangles(mesh):
+        return False
+    extent = float(np.ptp(mesh.points, axis=0).max())
+    return float(np.median(tile_sides(mesh))) * size / extent * TOO_FINE < tile_size
+
+
+def mostly_triangles(mesh: PolygonMesh) -> bool:
+    """Tell whether a mesh is a triangulated surface, as scans and exports are, and no cage."""
+    return float(np.mean(mesh.face_sizes == TRIANGLE)) >= MOSTLY

@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.prepare.density import mostly_triangles, too_fine
 from fabricate.prepare.remesh import Cells
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.prepare.triangle_mesh import TriangleMesh
@@ -16,12 +17,10 @@ from fabricate.surface.sizing import typical_side
 from fabricate.surface.tiling import (
     Tiling,
     input_surface,
-    mostly_triangles,
     new_tiling,
     own_tiling,
     own_tilings,
     smooth_surface,
-    too_fine,
 )
 from fabricate.surface.widening import coarse_necks
 

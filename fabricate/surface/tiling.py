@@ -14,19 +14,11 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.density import FEWEST_TILES
 from fabricate.prepare.remesh import Cells, remeshed
 from fabricate.prepare.store import NOTHING_KEPT, Kept, Store
-from fabricate.prepare.tile_sides import tile_sides
 from fabricate.prepare.triangle_mesh import TriangleMesh, fanned
 from fabricate.surface.fitting import fitted
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.roundness import polygons, rounded
 from fabricate.surface.sizing import ENOUGH_TILES, divided, sized, tiled, typical_side
-
-TOO_FINE = 2.5
-"""A file's own cells are too fine when their tiles are smaller than those asked for by more than this factor."""
-
-
-TRIANGLE, MOSTLY = 3, 0.9
-"""Corners of a triangle, and the share of the faces that are triangles in scans and exports."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,22 +112,6 @@ def new_tiling(
     progress("fitting the smooth surface")
     quads = fitted(subdivided(made.mesh, levels=1), surface.points, surface.triangles)
     return Tiling(quads, surface, made.words)
-
-
-def too_fine(mesh: PolygonMesh, *, size: float, tile_size: float) -> bool:
-    """Tell whether a mesh of triangles has far smaller tiles than those asked for; both lengths in mm.
-
-    Other polygons were laid out by somebody, and are kept.
-    """
-    if not mostly_triangles(mesh):
-        return False
-    extent = float(np.ptp(mesh.points, axis=0).max())
-    return float(np.median(tile_sides(mesh))) * size / extent * TOO_FINE < tile_size
-
-
-def mostly_triangles(mesh: PolygonMesh) -> bool:
-    """Tell whether a mesh is a triangulated surface, as scans and exports are, and no cage."""
-    return float(np.mean(mesh.face_sizes == TRIANGLE)) >= MOSTLY
 
 
 def input_surface(mesh: PolygonMesh, *, size: float) -> TriangleMesh:

@@ -60,6 +60,14 @@ def ball(name: str, *, x: float) -> Part:
     return Part(name, mesh.vertices + np.array([x, 0, 0]), mesh.faces)
 
 
+def test_a_folder_without_its_config_says_what_is_missing(made: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "copy"
+    shutil.copytree(made, copy)
+    (copy / "config.toml").unlink()
+    with pytest.raises(ReadError, match="put it back"):
+        rechecked([copy], clearance=None)
+
+
 def test_a_finished_folder_passes_with_all_that_its_report_knows(made: Path) -> None:
     found = rechecked([made], clearance=None)
     recorded = json.loads((made / "report.json").read_text())

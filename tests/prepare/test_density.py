@@ -8,7 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fabricate.errors import PrepareError
-from fabricate.prepare.density import FEWEST_TILES, finest_tile, neck_share
+from fabricate.mesh.sphere import geodesic_sphere
+from fabricate.mesh.torus import torus
+from fabricate.prepare.density import FEWEST_TILES, finest_tile, neck_share, too_fine
 from fabricate.process import PROCESSES
 
 arcs = st.floats(0.3, 0.7)
@@ -67,3 +69,12 @@ def test_arcs_that_meet_leave_no_neck(arc: float) -> None:
 def test_lengths_must_make_sense(feature: float, clearance: float, extent: float) -> None:
     with pytest.raises(PrepareError, match="positive feature, extent and margin"):
         finest_tile(feature, clearance, extent=extent)
+
+
+@pytest.mark.parametrize(("tile_size", "verdict"), [(2.0, False), (20.0, True)])
+def test_cells_are_too_fine_for_much_larger_tiles_only(tile_size: float, *, verdict: bool) -> None:
+    assert too_fine(geodesic_sphere(frequency=8), size=60.0, tile_size=tile_size) == verdict
+
+
+def test_quads_that_somebody_laid_out_are_kept() -> None:
+    assert not too_fine(torus(around=64, across=32, tube=0.45), size=60.0, tile_size=20.0)

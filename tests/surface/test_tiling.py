@@ -10,13 +10,13 @@ import pytest
 from fabricate.errors import PatternError
 from fabricate.mesh.closed import genus
 from fabricate.mesh.polygon_mesh import PolygonMesh
-from fabricate.mesh.sphere import geodesic_sphere, sphere
+from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
 from fabricate.prepare.remesh import Cells, Remeshed
 from fabricate.prepare.store import Store
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.sizing import tile_sides
-from fabricate.surface.tiling import input_surface, new_tiling, own_tiling, smooth_surface, too_fine
+from fabricate.surface.tiling import input_surface, new_tiling, own_tiling, smooth_surface
 
 RING = torus(around=12, across=6, tube=0.45)
 
@@ -39,15 +39,6 @@ def test_a_round_limit_is_round() -> None:
     tiles = own_tiling(sphere(faces="hexagons", frequency=1), size=60.0, tile_size=4.0, levels=None, round_limit=True)
     radius = np.linalg.norm(limit_vertices(tiles.quads), axis=1)
     assert np.ptp(radius) < 0.01 * 30.0
-
-
-@pytest.mark.parametrize(("tile_size", "verdict"), [(2.0, False), (20.0, True)])
-def test_cells_are_too_fine_for_much_larger_tiles_only(tile_size: float, *, verdict: bool) -> None:
-    assert too_fine(geodesic_sphere(frequency=8), size=60.0, tile_size=tile_size) == verdict
-
-
-def test_quads_that_somebody_laid_out_are_kept() -> None:
-    assert not too_fine(torus(around=64, across=32, tube=0.45), size=60.0, tile_size=20.0)
 
 
 def test_the_input_is_scaled_to_its_size() -> None:
