@@ -61,4 +61,4 @@ def _wrapping(actions: tuple[Action, ...], bodies: list[PolygonMesh]) -> tuple[s
     if not any(action.name == "surfaces wrapped" for action in actions):
         return ()
     handles = sum(genus(body) for body in bodies)
-    return (f"the input was wrapped in a new skin, whose genus is {handles}; what the input's own was does not matter",)
+    return (f"the input was wrapped in a new skin, and that has genus {handles}, whatever the input had",)

@@ -39,7 +39,7 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     _check_sizes(surface, thickness, clearance)
     _check_embedded(surface)
     between = 1.1 * clearance if core == "hollow" else 2.0 * clearance + CORE_WEB
-    down = ways_in(surface, thickness=thickness)
+    down = downward(surface, ways_in(surface, thickness=thickness))
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
     safe = surface.points + SAFE_DEPTH * depth[:, None] * downward(surface, down)
