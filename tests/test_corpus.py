@@ -62,7 +62,10 @@ def test_a_broken_mesh_ends_in_one_line(mesh: Path, tmp_path: Path, capsys: pyte
 @pytest.mark.timeout(400)
 @pytest.mark.parametrize("name", GOOD)
 def test_a_closed_mesh_makes_a_sound_pair(name: str, tmp_path: Path) -> None:
-    """Walls and necks may be too small for a process: these meshes have details of all sizes."""
+    """Walls and necks may be too small for a process: these meshes have details of all sizes.
+
+    Where fins are thinner than two walls, volumes add up less exactly than elsewhere.
+    """
     path = config_for(CORPUS / "good" / name, tmp_path, tile_size=7, tolerance=GOOD[name])
     (report,) = pipeline.run(load_config(path), name="mesh", out=tmp_path / "out", progress=lambda _: None)
     of_the_process = (".wall", "pattern.neck", "fit.process_gap", "fit.whole")
