@@ -6,7 +6,6 @@ import platform
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 from time import perf_counter
 
@@ -38,8 +37,9 @@ from fabricate.surface.cut import CutSurface
 from fabricate.surface.tile_choice import TileWish, chosen_tiling
 from fabricate.surface.tiling import Tiling
 from fabricate.surface.widening import widened
+from fabricate.versions import installed_version
 
-LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf")
+LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf", "pymeshlab", "pyquadriflow")
 
 NECK_MARGIN = 1.05
 """How much wider necks are asked for than the process needs: on the finished surface they may be a little narrower."""
@@ -198,7 +198,7 @@ def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:
 
 
 def _versions() -> dict[str, str]:
-    return {"python": platform.python_version(), **{name: version(name) for name in LIBRARIES}}
+    return {"python": platform.python_version(), **{name: installed_version(name) for name in LIBRARIES}}
 
 
 class _Stopwatch:

@@ -148,11 +148,6 @@ class Diagnosis:
     crossings_complete: bool
     thinnest: Thickness | None
 
-    @property
-    def is_closed(self) -> bool:
-        """Whether every edge has exactly two faces, wound consistently."""
-        return not (self.boundary_loops or self.nonmanifold_edges.count or self.inconsistent_edges.count)
-
 
 @dataclass(frozen=True, eq=False)
 class _Body:

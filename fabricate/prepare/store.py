@@ -10,13 +10,13 @@ import zipfile
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from time import perf_counter
 
 import numpy as np
 
 from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.versions import installed_version
 
 WORTH_KEEPING = 1.0
 """Work that takes less time than this, s, is done again instead."""
@@ -76,14 +76,7 @@ def _makers() -> str:
     source = hashlib.sha256()
     for path in sorted(package.rglob("*.py")):
         source.update(path.read_bytes())
-    return " ".join([source.hexdigest(), *(f"{name} {_version(name)}" for name in MAKERS)])
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "none"
+    return " ".join([source.hexdigest(), *(f"{name} {installed_version(name)}" for name in MAKERS)])
 
 
 def _read(path: Path) -> Kept | None:

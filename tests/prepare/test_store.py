@@ -80,7 +80,7 @@ def test_anything_else_is_something_else(mesh: PolygonMesh, asked: str, tmp_path
 def test_another_version_makes_it_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     maker, store = Maker(), Store(tmp_path)
     store.recalled(CUBE, "quads 7", maker)
-    monkeypatch.setattr(module, "_version", lambda name: f"next {name}")
+    monkeypatch.setattr(module, "installed_version", lambda name: f"next {name}")
     store.recalled(CUBE, "quads 7", maker)
     assert maker.calls == 2
 
