@@ -14,6 +14,8 @@ from fabricate.prepare.orientation import oriented
 from fabricate.prepare.places import place_numbers
 from fabricate.prepare.repaired import Action, Repaired
 
+UNDOING = ("points welded", "touching points split")  # on a rim, fans that merely touch are welded, then split again
+
 
 def gently_repaired(mesh: PolygonMesh) -> Repaired:
     """Weld, drop, split and flip whatever keeps a mesh from being closed components that face outward.
@@ -82,7 +84,15 @@ def _repaired(mesh: PolygonMesh, *, shrinking: bool) -> Repaired:
         "faces flipped": int(flips.sum()),
     }
     done = tuple(Action(name, count) for name, count in counts.items() if count)
-    return Repaired(_compact(tidy) if done else mesh, done)
+    if all(action.name in UNDOING for action in done) and _only_renumbered(mesh.corners, tidy.corners):
+        return Repaired(mesh, ())
+    return Repaired(_compact(tidy), done)
+
+
+def _only_renumbered(corners: Indices, others: Indices) -> bool:
+    """Return whether two lists of corners, both (c,) int, differ by the numbers of the points only."""
+    pairs = np.unique(np.column_stack([corners, others]), axis=0)
+    return len(pairs) == len(np.unique(corners)) == len(np.unique(others))
 
 
 def _without_repeats(mesh: PolygonMesh) -> tuple[PolygonMesh, tuple[int, int]]:

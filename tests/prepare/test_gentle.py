@@ -84,6 +84,16 @@ def test_repairing_twice_changes_nothing_more(mesh: PolygonMesh, lost: set[int],
     assert again.mesh is once
 
 
+def test_fans_that_touch_on_a_rim_stay_apart() -> None:
+    """Two open strips share one place, each with its own point: welding there would only have to be undone."""
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0], [-1, 0, 0], [0, -1, 0]], dtype=float)
+    mesh = PolygonMesh(points, np.arange(6), np.array([0, 3, 6]))
+    assert gently_repaired(mesh).mesh is mesh
+    joined = PolygonMesh(points, np.array([0, 1, 2, 0, 4, 5]), mesh.offsets)
+    assert actions(joined) == {"points without a face dropped": 1, "touching points split": 1}
+    assert len(gently_repaired(joined).mesh.points) == 6
+
+
 @given(surfaces(), choices, seeds)
 def test_no_point_is_moved(mesh: PolygonMesh, lost: set[int], seed: int) -> None:
     broken = shuffled(unwelded(without(mesh, lost)), np.random.default_rng(seed))
