@@ -16,7 +16,6 @@ from fabricate.checks.report import Report, report_json
 from fabricate.config import Config, FileConfig, SphereConfig, config_sha256, moved_config, resolved_toml
 from fabricate.duotone.certificate import certified
 from fabricate.duotone.duotone import Duotone
-from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.errors import MeshError
 from fabricate.formats.limits import ReadLimits
 from fabricate.formats.reading import read_mesh
@@ -36,7 +35,7 @@ from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.tile_choice import TileWish, chosen_tiling
 from fabricate.surface.tiling import Tiling
-from fabricate.surface.widening import widened
+from fabricate.surface.wide_tree import wide_duotone
 from fabricate.versions import installed_version
 
 LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf", "pymeshlab", "pyquadriflow")
@@ -91,14 +90,12 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     pattern, solid, process = config.pattern, config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
     wish, limit = _wish(config)
-    grow = partial(grown_duotone, tree=pattern.tree, seed=pattern.seed)
+    grow = partial(wide_duotone, tree=pattern.tree, seed=pattern.seed, arc=pattern.arc, neck=wish.neck)
     tiling = chosen_tiling(body.mesh, wish, grow=grow, progress=watch.tell, store=store)
     watch.begin("duotone")
     duotone = grow(tiling.quads)
     certificate = certified(duotone)
     watch.begin("cut")
-    if tiling.surface is not None:
-        duotone = widened(duotone, arc=pattern.arc, neck=_neck(config))
     surface = _surface(duotone, tiling, config)
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
@@ -172,7 +169,8 @@ def _wish(config: Config) -> tuple[TileWish, tuple[str, ...]]:
         tile_size=None if pattern.tile_size == "auto" else pattern.tile_size,
         levels=pattern.levels,
         cells=prepare.cells,
-        neck=_neck(config) if pattern.tile_size == "auto" else None,
+        neck=NECK_MARGIN * (feature + clearance),
+        resized=pattern.tile_size == "auto",
         arc=pattern.arc,
         seed=prepare.seed,
         cage=not isinstance(source, FileConfig),
@@ -182,11 +180,6 @@ def _wish(config: Config) -> tuple[TileWish, tuple[str, ...]]:
         return wish, ()
     finest = finest_tile(feature, clearance, extent=source.size, arc=pattern.arc)
     return replace(wish, tile_size=finest.tile_size), (finest.limit,)
-
-
-def _neck(config: Config) -> float:
-    """Return how wide necks have to be before clearance is taken off for the process to print them, mm."""
-    return NECK_MARGIN * (PROCESSES[config.process.name].feature_min + config.solid.clearance)
 
 
 def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:

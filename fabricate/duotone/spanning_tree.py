@@ -30,20 +30,28 @@ class _YellowGraph(NamedTuple):
 Tree: TypeAlias = Literal["random", "breadth-first", "depth-first"]
 
 
-def grown_duotone(quads: QuadMesh, *, tree: Tree, seed: int) -> Duotone:
-    """Join a spanning tree of the named kind; `seed` draws the random weights, or else the root."""
+def grown_duotone(quads: QuadMesh, *, tree: Tree, seed: int, reluctance: Indices | None = None) -> Duotone:
+    """Join a spanning tree of the named kind; `seed` draws the random weights, or else the root.
+
+    `reluctance` is for random trees, see `random_duotone`; others have a shape of their own.
+    """
     match tree:
         case "random":
-            return random_duotone(quads, seed=seed)
+            return random_duotone(quads, seed=seed, reluctance=reluctance)
         case "breadth-first":
             return breadth_first_duotone(quads, root=seeded_root(quads, seed=seed))
         case "depth-first":
             return depth_first_duotone(quads, root=seeded_root(quads, seed=seed))
 
 
-def random_duotone(quads: QuadMesh, *, seed: int) -> Duotone:
-    """Join the minimum spanning tree of random weights drawn from `seed`."""
+def random_duotone(quads: QuadMesh, *, seed: int, reluctance: Indices | None = None) -> Duotone:
+    """Join the minimum spanning tree of random weights drawn from `seed`.
+
+    With `reluctance`, (t,) int, only trees of the least total reluctance are drawn, from all of these.
+    """
     order = np.random.default_rng(seed).permutation(len(quads.tiles))
+    if reluctance is not None:
+        order = order[np.argsort(reluctance[order], kind="stable")]
     return _lightest(quads, order)
 
 

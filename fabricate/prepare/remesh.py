@@ -17,7 +17,7 @@ from fabricate.prepare.fitted import fitted
 from fabricate.prepare.isotropic import isotropic
 from fabricate.prepare.quadriflow import quadriflow, quadriflow_exists
 from fabricate.prepare.sizing_field import SizingField
-from fabricate.prepare.soundness import crossing_faces, fault, lost, topology_fault
+from fabricate.prepare.soundness import bridges, crossing_faces, fault, lost, topology_fault
 from fabricate.prepare.tile_sides import tile_sides
 from fabricate.prepare.triangle_mesh import TriangleMesh, decimated, fanned
 
@@ -178,6 +178,8 @@ def _first_quads(task: _Task, attempts: Sequence[tuple[float, int]], *, toleranc
         task.progress(f"making quads, attempt {number + 1}")
         quads = quadriflow(task.surface, faces=max(int(times * faces), 6), seed=task.seed + seeds)
         if quads is None or fault(quads, handles=task.handles) is not None or abs(task.miss(quads)) > tolerance:
+            continue
+        if len(bridges(quads, task.surface, span=2.0 * task.tile_size)):
             continue
         if not lost(quads, task.surface, reach=QUADRIFLOW_REACH * task.tile_size).any():
             return quads

@@ -17,8 +17,9 @@ from fabricate.triangles.normals import area_vectors, unit
 Faulty: TypeAlias = Callable[[Floats, Mask], Mask]
 """Tells of points, (n, 3) mm, some of which moved, (n,) bool, at which of them something is wrong, (n,) bool."""
 
-FOLD = -0.9
-"""Normals of triangles with a common edge at a smaller cosine, 154 degrees apart, make a fold."""
+OPEN = 0.2
+"""Where a triangle at a point is steeper than this cosine against the point's normal the surface folds: hardly a way
+leads into the body through all triangles there. The edge of a wedge of 23 degrees is as steep."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,20 +32,15 @@ class Embedding:
         Outward.
     means : (n, n) sparse
         Takes the mean over the points joined to each point.
-    sides : (e, 2) int
-        The two triangles at each edge.
     """
 
     triangles: Indices
     means: csr_array
-    sides: Indices
 
     @classmethod
     def of(cls, triangles: Indices, *, count: int) -> Embedding:
         """Find the neighbours of `count` points."""
-        ends = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-        by_edge = np.argsort(ends[:, 0] * count + ends[:, 1], kind="stable")
-        return cls(triangles, neighbour_means(triangles, count=count), (by_edge // 3).reshape(-1, 2))
+        return cls(triangles, neighbour_means(triangles, count=count))
 
     def crossed(self, points: Floats, moved: Mask) -> Mask:
         """Return the points, (n,) bool, of triangles that cross one another or have no area.
@@ -59,20 +55,30 @@ class Embedding:
         wrong[self.triangles[~area_vectors(points, self.triangles).any(axis=1)]] = True
         return wrong
 
+    def openness(self, points: Floats) -> Floats:
+        """Return the smallest cosine between each point's normal and those of its triangles, (n,) float.
+
+        The point's normal is the mean of its triangles' unit normals.
+        """
+        facets = unit(area_vectors(points, self.triangles))
+        corners = self.triangles.ravel()
+        columns = [np.bincount(corners, np.repeat(axis, 3), minlength=len(points)) for axis in facets.T]
+        normals = unit(np.stack(columns, axis=1))
+        smallest = np.ones(len(points))
+        np.minimum.at(smallest, corners, np.einsum("mi,mki->mk", facets, normals[self.triangles]).ravel())
+        return smallest
+
     def folded(self, points: Floats) -> Mask:
-        """Return the edges, (e,) bool, at which the surface doubles back on itself."""
-        normals = unit(area_vectors(points, self.triangles))
-        first, second = self.sides.T
-        sharp: Mask = np.einsum("ij,ij->i", normals[first], normals[second]) < FOLD
+        """Return the points, (n,) bool, at which the surface doubles back on itself."""
+        sharp: Mask = self.openness(points) < OPEN
         return sharp
 
     def faults_since(self, old: Floats) -> Faulty:
-        """Return the test for crossings, and for folds that the points `old`, (n, 3), do not have: a blade's edge."""
-        known = self.folded(old)
+        """Return the test for crossings, and for folds sharper than those of the points `old`, (n, 3)."""
+        least = np.minimum(self.openness(old), OPEN)
 
         def faulty(points: Floats, moved: Mask) -> Mask:
-            wrong = self.crossed(points, moved)
-            wrong[self.triangles[self.sides[self.folded(points) & ~known].ravel()]] = True
+            wrong: Mask = self.crossed(points, moved) | (self.openness(points) < least)
             return wrong
 
         return faulty

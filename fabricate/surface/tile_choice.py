@@ -13,6 +13,7 @@ from fabricate.prepare.density import mostly_triangles, too_fine
 from fabricate.prepare.remesh import Cells
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.prepare.triangle_mesh import TriangleMesh
+from fabricate.surface.neck import coarse_necks
 from fabricate.surface.sizing import typical_side
 from fabricate.surface.tiling import (
     Tiling,
@@ -22,7 +23,7 @@ from fabricate.surface.tiling import (
     own_tilings,
     smooth_surface,
 )
-from fabricate.surface.widening import coarse_necks
+from fabricate.surface.widening import widened
 
 HOPELESS = 0.7
 """The neck of a typical tile, which is 0.41 of its side on a square, is never as wide as this."""
@@ -44,9 +45,10 @@ class TileWish:
         How often a body's own quads are divided in four.
     cells : {"auto", "as-is", "quads", "triangles", "hexagons"}
         "auto": the body's own, unless they are too fine, or give no tiling with wide enough necks.
-    neck : float or None
-        Narrowest neck that will do, mm, before clearance is taken off, for coarser tiles to be tried; None takes
-        tiles as they come.
+    neck : float
+        Narrowest neck that will do, mm, before clearance is taken off.
+    resized : bool
+        Whether coarser own cells, or new ones, may take the place of tiles with narrower necks.
     arc : float
         Where the curve crosses tile sides.
     seed : int
@@ -61,7 +63,8 @@ class TileWish:
     tile_size: float | None
     levels: int | None
     cells: CellChoice
-    neck: float | None
+    neck: float
+    resized: bool
     arc: float
     seed: int
     cage: bool
@@ -107,14 +110,16 @@ def chosen_tiling(
     notes: tuple[str, ...] = ()
     if cells == "as-is" or (cells == "auto" and not too_fine(mesh, size=wish.size, tile_size=tile_size)):
         own = own_tilings(mesh, size=wish.size, tile_size=tile_size, round_limit=wish.round_limit)
-        wide = own[0] if wish.neck is None else _first_with_necks(own, wish.neck, wish.arc, grow)
+        wide = _first_with_necks(own, wish.neck, wish.arc, grow) if wish.resized else own[0]
         if wide is not None or cells == "as-is":
             return wide or own[0]
         notes = (f"no division of the mesh's own cells has necks of {wish.neck:.3g} mm: the cells are new quads",)
     whole = _surface(mesh, wish)
     kind: Cells = "quads" if cells == "auto" else cells
     made = new_tiling(whole, cells=kind, tile_size=tile_size, seed=wish.seed, progress=progress, store=store)
-    return replace(made, notes=notes + made.notes)
+    progress("widening narrow tiles")
+    quads = widened(made.quads, whole, arc=wish.arc, neck=wish.neck)
+    return replace(made, quads=quads, notes=notes + made.notes)
 
 
 def _surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:

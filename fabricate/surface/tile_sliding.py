@@ -28,26 +28,29 @@ def slid_tiles(quads: QuadMesh, chosen: Mask) -> QuadMesh:
     moving: Mask = np.zeros(count, dtype=bool)
     moving[quads.tiles[chosen]] = True
     moving |= means @ moving.astype(np.float64) > 0.0
-    way = means @ quads.points - quads.points
-    normals = _control_normals(quads)
-    way -= np.einsum("ij,ij->i", way, normals)[:, None] * normals
-    if quads.creases.any():
-        way = np.where(quads.crease_counts[:, None] == 0, way, _ways_along_creases(quads))
+    way = along_surface(quads, means @ quads.points - quads.points)
     return replace(quads, points=quads.points + STEP * moving[:, None] * way)
 
 
-def _ways_along_creases(quads: QuadMesh) -> Floats:
-    """Return the way of each point on a crease along it, to beside the mean of its two neighbours there, (n, 3)."""
-    count = len(quads.points)
+def along_surface(quads: QuadMesh, ways: Floats) -> Floats:
+    """Return the share of ways, (n, 3), within the surface at each point: along creases on these, none at corners."""
+    normals = _control_normals(quads)
+    flat = ways - np.einsum("ij,ij->i", ways, normals)[:, None] * normals
+    if not quads.creases.any():
+        return flat
+    along = _crease_tangents(quads)
+    kept = np.einsum("ij,ij->i", ways, along)[:, None] * along
+    return np.where(quads.crease_counts[:, None] == 0, flat, kept)
+
+
+def _crease_tangents(quads: QuadMesh) -> Floats:
+    """Return the unit tangent of the crease through each point, (n, 3); zero off creases and at their ends."""
     tail, head = quads.tiles.ravel()[quads.creases], np.roll(quads.tiles, -1, axis=1).ravel()[quads.creases]
     through = np.flatnonzero(quads.crease_counts == 2)
     ends = head[np.argsort(tail, kind="stable")][np.isin(np.sort(tail), through)].reshape(-1, 2)
-    first, second = quads.points[ends[:, 0]], quads.points[ends[:, 1]]
-    along = unit(second - first)
-    to_mean = 0.5 * (first + second) - quads.points[through]
-    ways = np.zeros((count, 3))
-    ways[through] = np.einsum("ij,ij->i", to_mean, along)[:, None] * along
-    return ways
+    tangents = np.zeros_like(quads.points)
+    tangents[through] = unit(quads.points[ends[:, 1]] - quads.points[ends[:, 0]])
+    return tangents
 
 
 def _control_normals(quads: QuadMesh) -> Floats:

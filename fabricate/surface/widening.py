@@ -1,4 +1,4 @@
-"""Widening: new tiles whose necks are too narrow to print grow at the cost of the larger ones around them."""
+"""Widening: new tiles grow until necks are wide enough to print, at the cost of the larger ones around them."""
 
 from __future__ import annotations
 
@@ -6,44 +6,64 @@ from dataclasses import replace
 
 import numpy as np
 
-from fabricate.arrays import Floats
-from fabricate.duotone.duotone import Duotone
-from fabricate.surface.cut import cut
-from fabricate.surface.limit import LimitSurface
-from fabricate.surface.neck import tile_necks
-from fabricate.surface.tile_sliding import slid_tiles
+from fabricate.arrays import Mask
+from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.prepare.triangle_mesh import TriangleMesh
+from fabricate.surface.fitting import fitted
+from fabricate.surface.neck import NeckGauge
+from fabricate.surface.sizing import typical_side
+from fabricate.surface.squaring import squared
 
-COARSE = 6
-"""Resolution at which necks are measured: within 3 % of what they are on the finished surface."""
+TYPICAL_SHARE = 0.8
+"""No neck is widened beyond this share of the typical one: where that is too narrow, tiles are too small altogether."""
 
-ROUNDS, PATIENCE = 40, 6
-"""Rounds of measuring and sliding, and rounds without progress before giving up."""
+FITS, ROUNDS, SLIDES = 4, 8, 4
+"""Fits to the surface, rounds of measuring and pushing before each, and slides in a round."""
+
+PUSH, MOST_PUSH, EASE = 1.1, 1.6, 0.95
+"""By how much a narrow tile's wanted side grows in a round, and at most; and how a wide one's returns to normal."""
+
+EMPHASIS = 6.0
+"""Power of the push by which a pushed tile counts against its neighbours."""
 
 
-def coarse_necks(duotone: Duotone, *, arc: float) -> Floats:
-    """Return the width of each tile's neck, (t,) float, mm, before clearance is taken off, measured quickly.
+def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float) -> QuadMesh:
+    """Return tiles that slid over a surface until each can be joined, one way or the other, `neck` mm wide or more.
 
-    Raises
-    ------
-    PatternError
-        If the tiles form more than one curve, or the arc position is out of range.
+    Where a body is too thin for that, the tiling with the fewest narrow tiles is returned; the very same quads if
+    none is narrow.
+
+    Parameters
+    ----------
+    quads : QuadMesh
+        Fitted to the surface.
+    onto : TriangleMesh
+        The surface, mm.
+    arc : float
+        Where the curve crosses tile sides.
+    neck : float
+        Width that necks have to have before clearance is taken off, mm.
     """
-    return tile_necks(cut(duotone, LimitSurface.of(duotone.quads), arc=arc, resolution=COARSE))[0]
+    gauge = NeckGauge.of(quads, arc=arc)
 
+    def narrow(tiles: QuadMesh) -> Mask:
+        too_narrow: Mask = gauge.necks(tiles.points).max(axis=1) < goal
+        return too_narrow
 
-def widened(duotone: Duotone, *, arc: float, neck: float) -> Duotone:
-    """Return the duotone, tiles slid over the surface until no neck is narrower than `neck` mm, if they can be.
-
-    Where a body is too thin for that, the tiling with the fewest narrow necks is returned. The surface changes
-    slightly where tiles slide; detail that is carried onto it afterwards brings it back.
-    """
-    best, fewest, waited = duotone, len(duotone.joined) + 1, 0
-    for _ in range(ROUNDS):
-        narrow = coarse_necks(duotone, arc=arc) < neck
-        count = int(np.count_nonzero(narrow))
-        best, waited = (duotone, 0) if count < fewest else (best, waited + 1)
-        fewest = min(fewest, count)
-        if count == 0 or waited == PATIENCE:
+    goal = min(neck, TYPICAL_SHARE * float(np.median(gauge.necks(quads.points).max(axis=1))))
+    best, fewest = quads, int(np.count_nonzero(narrow(quads)))
+    side, push = typical_side(quads), np.ones(len(quads.tiles))
+    for _ in range(FITS):
+        if not fewest:
             break
-        duotone = replace(duotone, quads=slid_tiles(duotone.quads, narrow))
+        for _ in range(ROUNDS):
+            wanting = narrow(quads)
+            if not wanting.any():
+                break
+            push = np.where(wanting, np.minimum(PUSH * push, MOST_PUSH), 1.0 + EASE * (push - 1.0))
+            for _ in range(SLIDES):
+                quads = squared(quads, sides=side * push, weights=push**EMPHASIS)
+        quads = fitted(quads, onto.points, onto.triangles)
+        count = int(np.count_nonzero(narrow(quads)))
+        best, fewest = (quads, count) if count < fewest else (best, fewest)
     return best

@@ -1,0 +1,37 @@
+"""Duotones whose necks are as wide as the tiles allow: a tile that is narrow joined one way is joined the other way."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fabricate.arrays import Indices
+from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.duotone.spanning_tree import Tree, grown_duotone
+from fabricate.surface.neck import NeckGauge
+
+STEPS = 4
+"""Into how many steps the way up to a wide neck is divided; necks within one step count as alike."""
+
+
+def wide_duotone(quads: QuadMesh, *, tree: Tree, seed: int, arc: float, neck: float) -> Duotone:
+    """Join a spanning tree; a random one avoids tiles whose necks would be narrower for it than `neck` mm.
+
+    A tile's neck runs along the diagonal that is joined, and is narrow where the other diagonal is short. Of random
+    trees one is drawn in which as few tiles as possible are joined the narrower way; the other kinds of trees have
+    a shape of their own, which they keep.
+
+    Raises
+    ------
+    PatternError
+        If the arc position is out of range.
+    """
+    return grown_duotone(quads, tree=tree, seed=seed, reluctance=_reluctance(quads, arc=arc, neck=neck))
+
+
+def _reluctance(quads: QuadMesh, *, arc: float, neck: float) -> Indices:
+    """Return by how many steps each tile's neck is narrower yellow-joined than blue-joined, (t,) int."""
+    necks = NeckGauge.of(quads, arc=arc).necks(quads.points)
+    reached = np.floor(STEPS * np.minimum(necks / neck, 1.0)).astype(np.int64)
+    steps: Indices = reached[:, 1] - reached[:, 0]
+    return steps
