@@ -6,7 +6,7 @@ And without bridges, which lead across a narrow gap from one part of a body to a
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from fabricate.arrays import Floats, Indices, Mask
@@ -74,8 +74,8 @@ def bridges(cells: PolygonMesh, surface: TriangleMesh, *, span: float) -> Indice
     ends = Edges.of(cells).ends
     near = _nearest_points(surface, cells.points)
     joined = edges(surface)
-    shape = (len(surface.points),) * 2
-    ways = csr_array((joined.lengths(surface.points), joined.ends.T), shape=shape)
+    count = len(surface.points)
+    ways = csr_array(coo_array((joined.lengths(surface.points), tuple(joined.ends.T)), shape=(count, count)))
     length = np.maximum(np.linalg.norm(cells.points[ends[:, 0]] - cells.points[ends[:, 1]], axis=1), span)
     limit = DETOUR * float(length.max())
     sources, source_of = np.unique(near[ends[:, 0]], return_inverse=True)
@@ -84,7 +84,8 @@ def bridges(cells: PolygonMesh, surface: TriangleMesh, *, span: float) -> Indice
         own = np.flatnonzero((source_of >= begin) & (source_of < begin + SOURCES))
         reached = dijkstra(ways, directed=False, indices=sources[begin : begin + SOURCES], limit=limit)
         along[own] = reached[source_of[own] - begin, near[ends[own, 1]]]
-    return ends[along > DETOUR * length]
+    found: Indices = ends[along > DETOUR * length]
+    return found
 
 
 def _nearest_points(surface: TriangleMesh, places: Floats) -> Indices:

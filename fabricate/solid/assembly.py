@@ -19,7 +19,7 @@ import numpy as np
 from fabricate.arrays import Floats, Indices, frozen
 from fabricate.solid.facing import wall_gaps
 from fabricate.solid.floor import floor_drop, lowered
-from fabricate.solid.layers import Layer, flipped, layer, wall
+from fabricate.solid.layers import Layer, flipped, layer, layer_shares, shares_near, wall
 from fabricate.solid.part import Part
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import unit
@@ -31,6 +31,10 @@ CORRECTIONS, MOST_ADDED = 3, 1.25
 
 NOTHING_MISSING = 1.01
 """Clearance over measured gap from which on walls are moved apart."""
+
+CLOSE = 0.75
+"""Over this share of the clearance, below a depth as large as it, the curve on an inner layer comes to lie right under
+that on the outer one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,11 +128,15 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, core: Core)
     """
     down = unit(inner - surface.points)
     drop = floor_drop(inner, surface.triangles, down, clearance=clearance)
+    depth = np.linalg.norm(inner - surface.points, axis=1)[surface.curve]
+    nearness = np.clip((clearance - depth) / (CLOSE * clearance), 0.0, 1.0)
     inlaid = surface.triangles[surface.yellow if core == "blue" else ~surface.yellow]
     wanted = np.full(len(surface.curve), clearance)
     for _ in range(CORRECTIONS):
         levels = [surface.points, inner] + ([] if core == "hollow" else [inner + drop[:, None] * down])
-        layers = [layer(surface, points, down, clearance=wanted) for points in levels]
+        outer, inner_own, *floor_own = [layer_shares(surface, points, down, clearance=wanted) for points in levels]
+        shares = [outer, shares_near(outer, inner_own, nearness=nearness), *floor_own]
+        layers = [layer(surface, *each) for each in zip(levels, shares, strict=True)]
         missing = clearance / np.maximum(_wall_gaps(surface, layers, core), 1e-9)
         short = (missing > NOTHING_MISSING).any()
         if core != "hollow":

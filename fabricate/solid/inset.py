@@ -48,7 +48,7 @@ RETREAT = 0.4
 """Share of the way back to a safe depth that points near a stubborn fault move in a round."""
 
 SAFE_DEPTH = 0.03
-"""The safe depth, as a share of the capped one."""
+"""The safe depth, as a share of the thickness."""
 
 
 def ways_in(surface: CutSurface, *, thickness: float) -> Floats:

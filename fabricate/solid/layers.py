@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fabricate.arrays import Floats, Indices
-from fabricate.solid.clearance import along, clearance_shares, ray_sides
+from fabricate.solid.clearance import Shares, along, clearance_shares, ray_sides
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import vertex_normals
 
@@ -23,15 +23,29 @@ class Layer:
     blue: Floats
 
 
-def layer(surface: CutSurface, points: Floats, down: Floats, *, clearance: Floats) -> Layer:
-    """Return the two copies of the surface moved to `points`, apart by the clearance along the curve.
+def layer_shares(surface: CutSurface, points: Floats, down: Floats, *, clearance: Floats) -> Shares:
+    """Return how far the copies of the curve move along their rays to be `clearance` apart, (c,) mm, at `points`.
 
-    In each copy the curve has moved along its rays, and the rest of the rays has closed up behind it. `down`,
-    (n, 3), are unit vectors along the wall under each point; `clearance`, (c,), is in mm at each curve point.
+    `down`, (n, 3), are unit vectors along the wall under each of the points, (n, 3).
     """
     normals = vertex_normals(points, surface.triangles)[surface.curve]
+    return clearance_shares(ray_sides(surface, points), normals, down[surface.curve], clearance=clearance)
+
+
+def shares_near(upper: Shares, lower: Shares, *, nearness: Floats) -> Shares:
+    """Return the shares of a lower layer drawn to those of the upper one by its nearness, (c,) from 0 to 1.
+
+    Where two layers lie close together their copies must move alike, or they cut through each other in bends.
+    """
+    return Shares(*(own + nearness * (above - own) for above, own in zip(upper, lower, strict=True)))
+
+
+def layer(surface: CutSurface, points: Floats, shares: Shares) -> Layer:
+    """Return the two copies of the surface moved to `points`, (n, 3) mm, apart by what the shares say.
+
+    In each copy the curve has moved along its rays, and the rest of the rays has closed up behind it.
+    """
     sides = ray_sides(surface, points)
-    shares = clearance_shares(sides, normals, down[surface.curve], clearance=clearance)
     rays = surface.curve_rays
     middle = rays.shape[1] // 2
     numbers = (rays[:, middle:], rays[:, middle::-1])

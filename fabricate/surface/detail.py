@@ -14,9 +14,10 @@ from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, frozen
 from fabricate.surface.embedding import Embedding
-from fabricate.surface.smoothing import diffused, filled, low_pass, passes_over
+from fabricate.surface.smoothing import diffused, low_pass, passes_over, steadied
 from fabricate.surface.stepping import stepped, untangled
 from fabricate.surface.target import Target
+from fabricate.triangles.adjacency import grown, neighbour_distances
 from fabricate.triangles.normals import unit, vertex_normals
 
 SCHEDULE = (20, 10, 4, 2, 0)
@@ -27,6 +28,10 @@ REACH = 0.12
 
 SLIDES = 5
 """How often points slide within the surface, in a round, towards where their neighbours moved."""
+
+ASTRAY, ROUGH, AROUND, FILLING = 0.5, 0.3, 1, 100
+"""Distance from the target from which a point did not reach it, mm; the openness below which it is rough there; how
+many rings around such points are smoothed with them; and how often these become the mean of what is around."""
 
 NOISE = 0.5
 """Length over which the base's normals are evened out, mm: those of crowded points are no better than their places."""
@@ -90,9 +95,11 @@ def carried(
     for passes in SCHEDULE:
         slid = _slid(outer, points, normals, embedding.means)
         aims = target.aims(slid, normals, reach=reach)
-        moved = slid + filled(aims.place - slid, aims.weight, embedding.means, passes=passes)
+        spacing = neighbour_distances(slid, triangles)
+        moved = slid + steadied(aims.place - slid, aims.weight, embedding.means, spacing, passes=passes)
         outer = stepped(outer, moved, embedding.means, embedding.faults_since(outer))
         normals = _steady_normals(outer, embedding)
+    outer = _smooth_where_astray(outer, points, embedding, target)
     edge = float(np.median(np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1)))
     smooth = points + low_pass(outer - points, embedding.means, passes=passes_over(smoothing, edge))
     base = stepped(outer, smooth, embedding.means, embedding.faults_since(outer))
@@ -110,6 +117,21 @@ def _slid(points: Floats, start: Floats, normals: Floats, means: csr_array) -> F
         way -= np.einsum("ij,ij->i", way, normals)[:, None] * normals
         points = points + 0.5 * way
     return points
+
+
+def _smooth_where_astray(outer: Floats, points: Floats, embedding: Embedding, target: Target) -> Floats:
+    """Return the surface with moves from `points` filled in from around where it did not reach the target.
+
+    Held back between sheets or caught in a crevice it is jagged there, for no reason of the target's.
+    """
+    astray = target.tree.nearest(outer).distance > ASTRAY
+    astray = grown(astray | (embedding.openness(outer) < ROUGH), embedding.means, AROUND)
+    if not astray.any():
+        return outer
+    moves = outer - points
+    for _ in range(FILLING):
+        moves[astray] = embedding.means[astray] @ moves
+    return stepped(outer, points + moves, embedding.means, embedding.faults_since(outer))
 
 
 def _steady_normals(points: Floats, embedding: Embedding) -> Floats:

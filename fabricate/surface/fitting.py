@@ -15,10 +15,10 @@ from fabricate.duotone.catmull_clark import Subdivision, catmull_clark
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.surface.embedding import Embedding, Faulty
 from fabricate.surface.limit import limit_vertices
-from fabricate.surface.smoothing import filled
+from fabricate.surface.smoothing import steadied
 from fabricate.surface.stepping import stepped, untangled
 from fabricate.surface.target import Target
-from fabricate.triangles.adjacency import grown, neighbour_means
+from fabricate.triangles.adjacency import grown, neighbour_distances, neighbour_means
 from fabricate.triangles.normals import vertex_normals
 
 SCHEDULE = (4, 4, 3, 3, 2, 2, 1, 1, 1, 0, 0, 0)
@@ -54,7 +54,8 @@ def fitted(quads: QuadMesh, onto_points: Floats, onto_triangles: Indices) -> Qua
     for passes in SCHEDULE:
         limit = limit_vertices(replace(quads, points=points))
         aims = target.aims(limit, vertex_normals(limit, fans), reach=reach)
-        move = filled(aims.place - limit, aims.weight, means, passes=passes)
+        spacing = neighbour_distances(limit, fans)
+        move = steadied(aims.place - limit, aims.weight, means, spacing, passes=passes)
         points = stepped(points, points + move, means, shape.faults_since(points))
     return replace(quads, points=points)
 

@@ -28,6 +28,9 @@ from fabricate.surface.widening import widened
 HOPELESS = 0.7
 """The neck of a typical tile, which is 0.41 of its side on a square, is never as wide as this."""
 
+MOST_NARROW = 0.1
+"""A cage keeps its own cells with no larger a share of narrow necks where new quads do not come out as asked for."""
+
 CellChoice: TypeAlias = Literal["auto", "as-is"] | Cells
 
 
@@ -107,19 +110,77 @@ def chosen_tiling(
     cells, tile_size = wish.cells, wish.tile_size
     if tile_size is None:
         return own_tiling(mesh, size=wish.size, tile_size=None, levels=wish.levels, round_limit=wish.round_limit)
-    notes: tuple[str, ...] = ()
     if cells == "as-is" or (cells == "auto" and not too_fine(mesh, size=wish.size, tile_size=tile_size)):
         own = own_tilings(mesh, size=wish.size, tile_size=tile_size, round_limit=wish.round_limit)
         wide = _first_with_necks(own, wish.neck, wish.arc, grow) if wish.resized else own[0]
         if wide is not None or cells == "as-is":
             return wide or own[0]
-        notes = (f"no division of the mesh's own cells has necks of {wish.neck:.3g} mm: the cells are new quads",)
-    whole = _surface(mesh, wish)
+        return _instead_of(own, mesh, wish, tile_size, grow=grow, progress=progress, store=store)
     kind: Cells = "quads" if cells == "auto" else cells
-    made = new_tiling(whole, cells=kind, tile_size=tile_size, seed=wish.seed, progress=progress, store=store)
+    return _new(mesh, wish, kind, tile_size, progress=progress, store=store)
+
+
+def _new(
+    mesh: PolygonMesh,
+    wish: TileWish,
+    cells: Cells,
+    tile_size: float,
+    *,
+    progress: Callable[[str], None],
+    store: Store,
+) -> Tiling:
+    """Return new cells, widened."""
+    whole = _surface(mesh, wish)
+    made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=wish.seed, progress=progress, store=store)
     progress("widening narrow tiles")
-    quads = widened(made.quads, whole, arc=wish.arc, neck=wish.neck)
-    return replace(made, quads=quads, notes=notes + made.notes)
+    return replace(made, quads=widened(made.quads, whole, arc=wish.arc, neck=wish.neck))
+
+
+def _instead_of(
+    own: tuple[Tiling, ...],
+    mesh: PolygonMesh,
+    wish: TileWish,
+    tile_size: float,
+    *,
+    grow: Callable[[QuadMesh], Duotone],
+    progress: Callable[[str], None],
+    store: Store,
+) -> Tiling:
+    """Return what takes the place of own tilings none of which has wide necks.
+
+    A cage's own cells slid over its surface, if that widens all of them, or nearly all and new quads come out
+    otherwise than asked for; else new quads.
+    """
+    slid, narrow = (None, 1.0) if mostly_triangles(mesh) else _slid(own, mesh, wish, grow=grow, progress=progress)
+    if slid is not None and narrow == 0.0:
+        return slid
+    made = _new(mesh, wish, "quads", tile_size, progress=progress, store=store)
+    if slid is not None and made.notes and narrow <= MOST_NARROW:
+        return slid
+    note = f"no division of the mesh's own cells has necks of {wish.neck:.3g} mm: the cells are new quads"
+    return replace(made, notes=(note, *made.notes))
+
+
+def _slid(
+    own: tuple[Tiling, ...],
+    mesh: PolygonMesh,
+    wish: TileWish,
+    *,
+    grow: Callable[[QuadMesh], Duotone],
+    progress: Callable[[str], None],
+) -> tuple[Tiling | None, float]:
+    """Return a cage's own tiling, widened, with the smallest share of narrow necks, and that share."""
+    progress("widening narrow tiles")
+    surface = smooth_surface(mesh, size=wish.size, round_limit=wish.round_limit)
+    hopeful = [tiling for tiling in own if HOPELESS * typical_side(tiling.quads) >= wish.neck]
+    slid = [widened(tiling.quads, surface, arc=wish.arc, neck=wish.neck) for tiling in hopeful]
+    shares = [float((coarse_necks(grow(quads), arc=wish.arc) < wish.neck).mean()) for quads in slid]
+    if not shares:
+        return None, 1.0
+    least = min(shares)
+    note = f"the mesh's own cells slid over its surface until their necks were {wish.neck:.3g} mm wide"
+    note += f", but for {least:.1%} of them" if least > 0.0 else ""
+    return Tiling(slid[shares.index(least)], surface, (note,)), least
 
 
 def _surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:

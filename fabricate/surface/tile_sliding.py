@@ -35,12 +35,13 @@ def slid_tiles(quads: QuadMesh, chosen: Mask) -> QuadMesh:
 def along_surface(quads: QuadMesh, ways: Floats) -> Floats:
     """Return the share of ways, (n, 3), within the surface at each point: along creases on these, none at corners."""
     normals = _control_normals(quads)
-    flat = ways - np.einsum("ij,ij->i", ways, normals)[:, None] * normals
+    flat: Floats = ways - np.einsum("ij,ij->i", ways, normals)[:, None] * normals
     if not quads.creases.any():
         return flat
     along = _crease_tangents(quads)
     kept = np.einsum("ij,ij->i", ways, along)[:, None] * along
-    return np.where(quads.crease_counts[:, None] == 0, flat, kept)
+    slides: Floats = np.where(quads.crease_counts[:, None] == 0, flat, kept)
+    return slides
 
 
 def _crease_tangents(quads: QuadMesh) -> Floats:

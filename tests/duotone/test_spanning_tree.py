@@ -121,6 +121,16 @@ def test_of_parallel_tiles_the_lightest_counts(count: int) -> None:
             assert not chosen[bundle].any() or chosen[bundle[np.argmin(weights[bundle])]]
 
 
+@given(quads=MESHES, seed=seeds)
+def test_reluctance_comes_first_and_chance_second(quads: QuadMesh, seed: int) -> None:
+    reluctance = np.random.default_rng(seed).integers(-2, 3, size=len(quads.tiles))
+    least = reluctance[weighted_duotone(quads, reluctance.astype(float)).joined].sum()
+    drawn = [random_duotone(quads, seed=number, reluctance=reluctance).joined for number in range(5)]
+    assert all(reluctance[joined].sum() == least for joined in drawn)
+    alike = random_duotone(quads, seed=seed, reluctance=np.zeros(len(quads.tiles), dtype=int)).joined
+    assert (alike == random_duotone(quads, seed=seed).joined).all()
+
+
 @given(quads=MESHES, seed=seeds, scale=st.floats(1e-6, 1e6))
 def test_only_the_order_of_weights_counts(quads: QuadMesh, seed: int, scale: float) -> None:
     weights = some_weights(quads, seed)

@@ -7,10 +7,12 @@ import pytest
 
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.torus import torus
-from fabricate.solid.layers import flipped, layer, wall
+from fabricate.solid.assembly import assembly
+from fabricate.solid.layers import Layer, flipped, layer, layer_shares, shares_near, wall
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
+from fabricate.triangles.crossing import crossing_triangles
 
 SIDES = 12
 TURN = np.arange(SIDES) * (2 * np.pi / SIDES)
@@ -59,25 +61,50 @@ def test_flipped_twice_is_nothing() -> None:
     assert (flipped(triangles) != triangles).any()
 
 
+def apart_by(surface: CutSurface, clearance: np.ndarray) -> Layer:
+    return layer(
+        surface, surface.points, layer_shares(surface, surface.points, -surface.normals, clearance=clearance)
+    )
+
+
 @pytest.mark.parametrize("clearance", [0.2, 0.5])
 def test_the_copies_of_a_layer_are_apart_along_the_curve_only(surface: CutSurface, clearance: float) -> None:
     wanted = np.full(len(surface.curve), clearance)
-    copies = layer(surface, surface.points, -surface.normals, clearance=wanted)
+    copies = apart_by(surface, wanted)
     apart = np.linalg.norm(copies.yellow - copies.blue, axis=1)
     assert apart[surface.curve].min() >= 0.97 * clearance
     assert (apart[surface.rays[:, :, [0, -1]]] <= 1e-9).all()
 
 
 def test_a_layer_with_hardly_any_clearance_is_its_points(surface: CutSurface) -> None:
-    copies = layer(surface, surface.points, -surface.normals, clearance=np.full(len(surface.curve), 1e-6))
+    copies = apart_by(surface, np.full(len(surface.curve), 1e-6))
     assert copies.yellow == pytest.approx(surface.points, abs=1e-5)
     assert copies.blue == pytest.approx(surface.points, abs=1e-5)
 
 
 def test_no_triangle_of_a_copy_turns_over(surface: CutSurface) -> None:
-    copies = layer(surface, surface.points, -surface.normals, clearance=np.full(len(surface.curve), 0.5))
+    copies = apart_by(surface, np.full(len(surface.curve), 0.5))
     for points, own in ((copies.yellow, surface.yellow), (copies.blue, ~surface.yellow)):
         corners = points[surface.triangles[own]]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         upward = surface.normals[surface.triangles[own]].mean(axis=1)
         assert (np.einsum("ij,ij->i", normals, upward) > 0).all()
+
+
+def test_a_layer_close_under_another_moves_like_it(surface: CutSurface) -> None:
+    down, clearance = -surface.normals, np.full(len(surface.curve), 0.5)
+    levels = surface.points, surface.points + 2.0 * down
+    upper, lower = (layer_shares(surface, points, down, clearance=clearance) for points in levels)
+    assert np.abs(upper.yellow - lower.yellow).max() > 0.01
+    count = len(surface.curve)
+    far, half, close = (shares_near(upper, lower, nearness=np.full(count, value)) for value in (0.0, 0.5, 1.0))
+    for own, above, below, between in zip(close, upper, lower, half, strict=True):
+        np.testing.assert_allclose(own, above, atol=1e-12)
+        np.testing.assert_allclose(between, 0.5 * (above + below), atol=1e-12)
+    assert all((own == below).all() for own, below in zip(far, lower, strict=True))
+
+
+def test_hardly_under_the_surface_nothing_crosses(surface: CutSurface) -> None:
+    """A hundredth of a millimetre down the facing parts are two skins that nowhere cut through each other."""
+    made = assembly(surface, surface.points - 0.01 * surface.normals, clearance=0.5, core="hollow")
+    assert len(crossing_triangles(made.points, np.concatenate([made.yellow, made.blue]))) == 0

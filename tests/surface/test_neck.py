@@ -13,7 +13,7 @@ from fabricate.duotone.spanning_tree import random_duotone
 from fabricate.mesh.cube import cube
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
-from fabricate.surface.neck import tile_necks
+from fabricate.surface.neck import NeckGauge, coarse_necks, tile_necks
 
 SIDE = 4.0
 CUBE = two_coloured(cube(divisions=10).scaled(5 * SIDE))
@@ -67,3 +67,25 @@ def test_place_is_in_the_middle_of_a_flat_square() -> None:
     _, places = tile_necks(cut_up(duotone, 0.6, 8))
     flat = flat_squares(CUBE)
     np.testing.assert_allclose(places[flat], CUBE.points[CUBE.tiles].mean(axis=1)[flat], atol=1e-12)
+
+
+@settings(max_examples=20)
+@given(arc=st.floats(0.3, 0.7))
+def test_the_gauge_knows_both_ways_to_join_a_square(arc: float) -> None:
+    necks = NeckGauge.of(CUBE, arc=arc).necks(CUBE.points)[flat_squares(CUBE)]
+    exact = (np.sqrt(2) - 2 * np.array([1 - arc, arc])) * SIDE
+    np.testing.assert_allclose(necks, np.broadcast_to(exact, necks.shape), atol=1e-12)
+
+
+def test_the_gauge_follows_points_that_move(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("fabricate.surface.neck.CHUNK", 100)
+    gauge = NeckGauge.of(CUBE, arc=0.5)
+    np.testing.assert_allclose(gauge.necks(2.0 * CUBE.points), 2.0 * gauge.necks(CUBE.points), rtol=1e-12)
+    assert gauge.necks(CUBE.points).shape == (len(CUBE.tiles), 2)
+
+
+@settings(max_examples=20)
+@given(duotone=quasi_trees(), arc=st.floats(0.3, 0.7))
+def test_necks_measured_quickly_are_those_of_a_fine_cut(duotone: Duotone, arc: float) -> None:
+    fine = tile_necks(cut_up(duotone, arc, 24))[0]
+    assert coarse_necks(duotone, arc=arc) == pytest.approx(fine, rel=0.05, abs=0.01 * fine.max())

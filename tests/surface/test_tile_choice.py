@@ -14,10 +14,10 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.mesh.torus import torus
 from fabricate.prepare.remesh import Cells, Remeshed
+from fabricate.surface.neck import coarse_necks
 from fabricate.surface.sizing import typical_side
 from fabricate.surface.tile_choice import TileWish, chosen_tiling
 from fabricate.surface.tiling import Tiling
-from fabricate.surface.widening import coarse_necks
 
 GROW = partial(grown_duotone, tree="random", seed=3)
 RING = torus(around=12, across=6, tube=0.45)
@@ -26,7 +26,8 @@ WISH = TileWish(
     tile_size=5.0,
     levels=None,
     cells="auto",
-    neck=None,
+    neck=0.1,
+    resized=True,
     arc=0.5,
     seed=0,
     cage=True,
