@@ -29,9 +29,9 @@ REACH = 0.12
 SLIDES = 5
 """How often points slide within the surface, in a round, towards where their neighbours moved."""
 
-ASTRAY, ROUGH, AROUND, FILLING = 0.5, 0.3, 1, 100
-"""Distance from the target from which a point did not reach it, mm; the openness below which it is rough there; how
-many rings around such points are smoothed with them; and how often these become the mean of what is around."""
+ASTRAY, AROUND, FILLING = 0.5, 2, 100
+"""Distance from the target from which a point did not reach it, mm; how many rings around such points are smoothed
+with them; and how often these become the mean of what is around."""
 
 NOISE = 0.5
 """Length over which the base's normals are evened out, mm: those of crowded points are no better than their places."""
@@ -124,8 +124,7 @@ def _smooth_where_astray(outer: Floats, points: Floats, embedding: Embedding, ta
 
     Held back between sheets or caught in a crevice it is jagged there, for no reason of the target's.
     """
-    astray = target.tree.nearest(outer).distance > ASTRAY
-    astray = grown(astray | (embedding.openness(outer) < ROUGH), embedding.means, AROUND)
+    astray = grown(target.tree.nearest(outer).distance > ASTRAY, embedding.means, AROUND)
     if not astray.any():
         return outer
     moves = outer - points

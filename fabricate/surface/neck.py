@@ -15,7 +15,7 @@ from fabricate.surface.limit import LimitOperator, LimitSurface, Samples
 from fabricate.surface.template import tile_template
 
 COARSE = 6
-"""Segments of the arcs on which necks are measured quickly: within 3 % of what they are on the finished surface."""
+"""Segments of the arcs on which necks are measured quickly: off by less than 3 % of a tile's side."""
 
 
 CHUNK = 50_000

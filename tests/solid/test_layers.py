@@ -62,9 +62,7 @@ def test_flipped_twice_is_nothing() -> None:
 
 
 def apart_by(surface: CutSurface, clearance: np.ndarray) -> Layer:
-    return layer(
-        surface, surface.points, layer_shares(surface, surface.points, -surface.normals, clearance=clearance)
-    )
+    return layer(surface, surface.points, layer_shares(surface, surface.points, -surface.normals, clearance=clearance))
 
 
 @pytest.mark.parametrize("clearance", [0.2, 0.5])

@@ -14,6 +14,7 @@ from fabricate.mesh.cube import cube
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
 from fabricate.surface.neck import NeckGauge, coarse_necks, tile_necks
+from fabricate.surface.sizing import tile_sides
 
 SIDE = 4.0
 CUBE = two_coloured(cube(divisions=10).scaled(5 * SIDE))
@@ -88,4 +89,6 @@ def test_the_gauge_follows_points_that_move(monkeypatch: pytest.MonkeyPatch) -> 
 @given(duotone=quasi_trees(), arc=st.floats(0.3, 0.7))
 def test_necks_measured_quickly_are_those_of_a_fine_cut(duotone: Duotone, arc: float) -> None:
     fine = tile_necks(cut_up(duotone, arc, 24))[0]
-    assert coarse_necks(duotone, arc=arc) == pytest.approx(fine, rel=0.05, abs=0.01 * fine.max())
+    off = coarse_necks(duotone, arc=arc) - fine
+    assert off.min() > -1e-9
+    assert (off < 0.03 * tile_sides(duotone.quads).reshape(-1, 4).max(axis=1)).all()
