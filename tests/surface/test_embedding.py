@@ -70,7 +70,7 @@ def folded_over() -> np.ndarray:
 def test_a_triangle_turned_over_makes_folds() -> None:
     found = EMBEDDING.folded(folded_over())
     assert found.any()
-    near = np.unique(TRIANGLES[(TRIANGLES == TRIANGLES[11, 0]).any(axis=1)])
+    near = np.unique(TRIANGLES[(TRIANGLES[11, 0] == TRIANGLES).any(axis=1)])
     assert np.isin(np.flatnonzero(found), near).all()
 
 
