@@ -20,7 +20,7 @@ class PatternConfig(Section):
     levels: Annotated[int, Field(ge=0, le=12)] | None = Field(default=None, examples=[2])
     """How often the quads are divided in four; instead of tile_size."""
     tree: Literal["random", "breadth-first", "depth-first"] = "random"
-    """Spanning tree that the yellow region grows along."""
+    """Spanning tree that the yellow region grows along; a random one avoids necks that are too narrow to print."""
     seed: Annotated[int, Field(ge=0)] = 0
     """Another seed gives another random tree, the same seed always the same."""
     arc: Annotated[float, Field(gt=0.293, lt=0.707)] = 0.5
