@@ -47,8 +47,8 @@ TILES, SLIDES = 1, 36
 RETREAT = 0.4
 """Share of the way back to a safe depth that points near a stubborn fault move in a round."""
 
-SAFE_DEPTH = 0.03
-"""The safe depth, as a share of the thickness."""
+SAFE_DEPTH = 0.002
+"""The safe depth, as a share of the thickness: straight in, and so little that a surface that is embedded stays so."""
 
 
 def ways_in(surface: CutSurface, *, thickness: float) -> Floats:

@@ -14,6 +14,7 @@ from fabricate.solid.inset import SAFE_DEPTH, capped_depth, downward, relaxed, r
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.normals import mean_normals
 
 RETREAT_FROM, ALL_ROUNDS = 4, 60
 """Round from which stubborn places retreat, and rounds in all; the checks report what is left."""
@@ -42,7 +43,7 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     down = downward(surface, ways_in(surface, thickness=thickness))
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
-    safe = surface.points + SAFE_DEPTH * thickness * down
+    safe = surface.points - SAFE_DEPTH * thickness * mean_normals(surface.points, surface.triangles)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
     fewest, waited = (len(inner), len(inner)), 0

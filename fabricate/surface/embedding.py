@@ -12,7 +12,7 @@ from scipy.sparse import csr_array
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles, triangles_near
-from fabricate.triangles.normals import area_vectors, unit
+from fabricate.triangles.normals import area_vectors, mean_normals, unit
 
 Faulty: TypeAlias = Callable[[Floats, Mask], Mask]
 """Tells of points, (n, 3) mm, some of which moved, (n,) bool, at which of them something is wrong, (n,) bool."""
@@ -61,11 +61,11 @@ class Embedding:
         The point's normal is the mean of its triangles' unit normals.
         """
         facets = unit(area_vectors(points, self.triangles))
-        corners = self.triangles.ravel()
-        columns = [np.bincount(corners, np.repeat(axis, 3), minlength=len(points)) for axis in facets.T]
-        normals = unit(np.stack(columns, axis=1))
+        normals = mean_normals(points, self.triangles)
         smallest = np.ones(len(points))
-        np.minimum.at(smallest, corners, np.einsum("mi,mki->mk", facets, normals[self.triangles]).ravel())
+        np.minimum.at(
+            smallest, self.triangles.ravel(), np.einsum("mi,mki->mk", facets, normals[self.triangles]).ravel()
+        )
         return smallest
 
     def folded(self, points: Floats) -> Mask:

@@ -23,6 +23,14 @@ def vertex_normals(points: Floats, triangles: Indices) -> Floats:
     return unit(normals)
 
 
+def mean_normals(points: Floats, triangles: Indices) -> Floats:
+    """Return the unit means of the unit normals of the triangles at each point, (n, 3) float: slivers count in full."""
+    facet = unit(area_vectors(points, triangles))
+    corners = triangles.ravel()
+    columns = [np.bincount(corners, np.repeat(axis, 3), minlength=len(points)) for axis in facet.T]
+    return unit(np.stack(columns, axis=1))
+
+
 def unit(vectors: Floats) -> Floats:
     """Return the vectors, (n, 3), at length 1; a zero vector stays zero."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
