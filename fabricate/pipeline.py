@@ -90,9 +90,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     pattern, solid, process = config.pattern, config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
     wish, limit = _wish(config)
-    grow = partial(
-        wide_duotone, tree=pattern.tree, seed=pattern.seed, arc=pattern.arc, neck=wish.neck, depth=wish.depth
-    )
+    grow = partial(wide_duotone, tree=pattern.tree, seed=pattern.seed, arc=pattern.arc, neck=wish.neck)
     tiling = chosen_tiling(body.mesh, wish, grow=grow, progress=watch.tell, store=store)
     watch.begin("duotone")
     duotone = grow(tiling.quads)
@@ -172,7 +170,6 @@ def _wish(config: Config) -> tuple[TileWish, tuple[str, ...]]:
         levels=pattern.levels,
         cells=prepare.cells,
         neck=NECK_MARGIN * (feature + clearance),
-        depth=config.solid.thickness,
         resized=pattern.tile_size == "auto",
         arc=pattern.arc,
         seed=prepare.seed,

@@ -22,23 +22,15 @@ CHUNK = 50_000
 """Tiles measured at once: more would need much memory and would not be faster."""
 
 
-LEAST_LEFT = 0.6
-"""A neck is not taken to be narrower than this share of its outer width further in: thin parts have thinner walls."""
-
-
 @dataclass(frozen=True, eq=False)
 class NeckGauge:
-    """Measures the neck of every tile both ways it can be joined, again and again as control points move.
-
-    Where a body is round a neck gets narrower from the outside in, so it is measured `depth` mm under the surface, too.
-    """
+    """Measures the neck of every tile both ways it can be joined, again and again as control points move."""
 
     refinement: Subdivision
     arcs: tuple[LimitOperator, ...]
-    depth: float
 
     @classmethod
-    def of(cls, quads: QuadMesh, *, arc: float, depth: float = 0.0) -> NeckGauge:
+    def of(cls, quads: QuadMesh, *, arc: float) -> NeckGauge:
         """Prepare for quads with this arc position; only their points may change.
 
         Raises
@@ -53,7 +45,7 @@ class NeckGauge:
             tiles = np.arange(begin, min(begin + CHUNK, len(quads.tiles)))
             rows = np.arange(len(tiles) * len(uv)).reshape(len(tiles), len(uv))
             operators.append(limit.operator([Samples(tiles, uv, rows)], size=rows.size))
-        return cls(catmull_clark(quads), tuple(operators), depth)
+        return cls(catmull_clark(quads), tuple(operators))
 
     def necks(self, points: Floats) -> Floats:
         """Return the necks of each tile when it is yellow-joined and when it is blue-joined, (t, 2) float, mm.
@@ -61,16 +53,7 @@ class NeckGauge:
         Before clearance is taken off, for control points, (n, 3) float, mm.
         """
         control = self.refinement.matrix @ points
-        return np.concatenate([self._measured(operator, control) for operator in self.arcs])
-
-    def _measured(self, operator: LimitOperator, control: Floats) -> Floats:
-        places = operator.positions(control)
-        outer = _narrowest(places)
-        if self.depth == 0.0:
-            return outer
-        inner = _narrowest(places - self.depth * operator.normals(control))
-        necks: Floats = np.clip(inner, LEAST_LEFT * outer, outer)
-        return necks
+        return np.concatenate([_narrowest(operator.positions(control)) for operator in self.arcs])
 
 
 def _narrowest(places: Floats) -> Floats:
@@ -81,17 +64,15 @@ def _narrowest(places: Floats) -> Floats:
     return necks
 
 
-def coarse_necks(duotone: Duotone, *, arc: float, depth: float = 0.0) -> Floats:
+def coarse_necks(duotone: Duotone, *, arc: float) -> Floats:
     """Return the width of each tile's neck, (t,) float, mm, before clearance is taken off, measured quickly.
-
-    It is the smaller of those on the surface and `depth` mm under it.
 
     Raises
     ------
     PatternError
         If the arc position is out of range.
     """
-    both = NeckGauge.of(duotone.quads, arc=arc, depth=depth).necks(duotone.quads.points)
+    both = NeckGauge.of(duotone.quads, arc=arc).necks(duotone.quads.points)
     necks: Floats = np.where(duotone.joined, both[:, 0], both[:, 1])
     return necks
 

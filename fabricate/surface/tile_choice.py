@@ -50,8 +50,6 @@ class TileWish:
         "auto": the body's own, unless they are too fine, or give no tiling with wide enough necks.
     neck : float
         Narrowest neck that will do, mm, before clearance is taken off.
-    depth : float
-        How far under the surface necks have to be as wide, mm.
     resized : bool
         Whether coarser own cells, or new ones, may take the place of tiles with narrower necks.
     arc : float
@@ -69,7 +67,6 @@ class TileWish:
     levels: int | None
     cells: CellChoice
     neck: float
-    depth: float
     resized: bool
     arc: float
     seed: int
@@ -115,7 +112,7 @@ def chosen_tiling(
         return own_tiling(mesh, size=wish.size, tile_size=None, levels=wish.levels, round_limit=wish.round_limit)
     if cells == "as-is" or (cells == "auto" and not too_fine(mesh, size=wish.size, tile_size=tile_size)):
         own = own_tilings(mesh, size=wish.size, tile_size=tile_size, round_limit=wish.round_limit)
-        wide = _first_with_necks(own, wish, grow) if wish.resized else own[0]
+        wide = _first_with_necks(own, wish.neck, wish.arc, grow) if wish.resized else own[0]
         if wide is not None or cells == "as-is":
             return wide or own[0]
         return _instead_of(own, mesh, wish, tile_size, grow=grow, progress=progress, store=store)
@@ -136,7 +133,7 @@ def _new(
     whole = _surface(mesh, wish)
     made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=wish.seed, progress=progress, store=store)
     progress("widening narrow tiles")
-    return replace(made, quads=widened(made.quads, whole, arc=wish.arc, neck=wish.neck, depth=wish.depth))
+    return replace(made, quads=widened(made.quads, whole, arc=wish.arc, neck=wish.neck))
 
 
 def _instead_of(
@@ -176,8 +173,8 @@ def _slid(
     progress("widening narrow tiles")
     surface = smooth_surface(mesh, size=wish.size, round_limit=wish.round_limit)
     hopeful = [tiling for tiling in own if HOPELESS * typical_side(tiling.quads) >= wish.neck]
-    slid = [widened(tiling.quads, surface, arc=wish.arc, neck=wish.neck, depth=wish.depth) for tiling in hopeful]
-    shares = [float((coarse_necks(grow(quads), arc=wish.arc, depth=wish.depth) < wish.neck).mean()) for quads in slid]
+    slid = [widened(tiling.quads, surface, arc=wish.arc, neck=wish.neck) for tiling in hopeful]
+    shares = [float((coarse_necks(grow(quads), arc=wish.arc) < wish.neck).mean()) for quads in slid]
     if not shares:
         return None, 1.0
     least = min(shares)
@@ -194,13 +191,13 @@ def _surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:
 
 
 def _first_with_necks(
-    tilings: tuple[Tiling, ...], wish: TileWish, grow: Callable[[QuadMesh], Duotone]
+    tilings: tuple[Tiling, ...], neck: float, arc: float, grow: Callable[[QuadMesh], Duotone]
 ) -> Tiling | None:
     """Return the first tiling without a neck narrower than asked, mm, if there is one; a coarser one says so."""
     for tiling in tilings:
-        if HOPELESS * typical_side(tiling.quads) < wish.neck:
+        if HOPELESS * typical_side(tiling.quads) < neck:
             continue
-        if coarse_necks(grow(tiling.quads), arc=wish.arc, depth=wish.depth).min() >= wish.neck:
-            note = f"tiles are larger: the cells are uneven, and the narrowest neck has to be {wish.neck:.3g} mm wide"
+        if coarse_necks(grow(tiling.quads), arc=arc).min() >= neck:
+            note = f"tiles are larger: the cells are uneven, and the narrowest neck has to be {neck:.3g} mm wide"
             return tiling if tiling is tilings[0] else replace(tiling, notes=(note, *tiling.notes))
     return None

@@ -14,10 +14,8 @@ STEPS = 4
 """Into how many steps the way up to a wide neck is divided; necks within one step count as alike."""
 
 
-def wide_duotone(quads: QuadMesh, *, tree: Tree, seed: int, arc: float, neck: float, depth: float = 0.0) -> Duotone:
+def wide_duotone(quads: QuadMesh, *, tree: Tree, seed: int, arc: float, neck: float) -> Duotone:
     """Join a spanning tree; a random one avoids tiles whose necks would be narrower for it than `neck` mm.
-
-    Necks count as narrow as they are anywhere down to `depth` mm under the surface.
 
     A tile's neck runs along the diagonal that is joined, and is narrow where the other diagonal is short. Of random
     trees one is drawn in which as few tiles as possible are joined the narrower way; the other kinds of trees have
@@ -28,12 +26,12 @@ def wide_duotone(quads: QuadMesh, *, tree: Tree, seed: int, arc: float, neck: fl
     PatternError
         If the arc position is out of range.
     """
-    return grown_duotone(quads, tree=tree, seed=seed, reluctance=_reluctance(quads, arc=arc, neck=neck, depth=depth))
+    return grown_duotone(quads, tree=tree, seed=seed, reluctance=_reluctance(quads, arc=arc, neck=neck))
 
 
-def _reluctance(quads: QuadMesh, *, arc: float, neck: float, depth: float) -> Indices:
+def _reluctance(quads: QuadMesh, *, arc: float, neck: float) -> Indices:
     """Return by how many steps each tile's neck is narrower yellow-joined than blue-joined, (t,) int."""
-    necks = NeckGauge.of(quads, arc=arc, depth=depth).necks(quads.points)
+    necks = NeckGauge.of(quads, arc=arc).necks(quads.points)
     reached = np.floor(STEPS * np.minimum(necks / neck, 1.0)).astype(np.int64)
     steps: Indices = reached[:, 1] - reached[:, 0]
     return steps

@@ -25,7 +25,7 @@ EMPHASIS = 6.0
 """Power of the push by which a pushed tile counts against its neighbours."""
 
 
-def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float, depth: float = 0.0) -> QuadMesh:
+def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float) -> QuadMesh:
     """Return tiles that slid over a surface until each can be joined, one way or the other, `neck` mm wide or more.
 
     Where a body is too thin for that, the tiling with the fewest narrow tiles is returned; the very same quads if
@@ -41,10 +41,8 @@ def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float, dep
         Where the curve crosses tile sides.
     neck : float
         Width that necks have to have before clearance is taken off, mm.
-    depth : float
-        How far under the surface they have to be as wide, mm.
     """
-    gauge = NeckGauge.of(quads, arc=arc, depth=depth)
+    gauge = NeckGauge.of(quads, arc=arc)
 
     def narrow(tiles: QuadMesh) -> Mask:
         too_narrow: Mask = gauge.necks(tiles.points).max(axis=1) < goal

@@ -7,16 +7,14 @@ from hypothesis import strategies as st
 from scipy.spatial.distance import cdist
 from truchet import quasi_trees
 
-from fabricate.duotone.catmull_clark import subdivided
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
 from fabricate.duotone.spanning_tree import random_duotone
 from fabricate.mesh.cube import cube
-from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
-from fabricate.surface.neck import LEAST_LEFT, NeckGauge, coarse_necks, tile_necks
-from fabricate.surface.sizing import sized, tile_sides
+from fabricate.surface.neck import NeckGauge, coarse_necks, tile_necks
+from fabricate.surface.sizing import tile_sides
 
 SIDE = 4.0
 CUBE = two_coloured(cube(divisions=10).scaled(5 * SIDE))
@@ -94,13 +92,3 @@ def test_necks_measured_quickly_are_those_of_a_fine_cut(duotone: Duotone, arc: f
     off = coarse_necks(duotone, arc=arc) - fine
     assert off.min() > -1e-9
     assert (off < 0.03 * tile_sides(duotone.quads).reshape(-1, 4).max(axis=1)).all()
-
-
-def test_necks_on_a_ball_get_narrower_with_depth() -> None:
-    """Under the surface of a ball everything is smaller by the depth over the radius."""
-    quads = subdivided(sized(geodesic_sphere(frequency=3), size=2.0), levels=2)
-    radius = 1.0
-    outer, inner = (NeckGauge.of(quads, arc=0.5, depth=depth).necks(quads.points) for depth in (0.0, 0.2 * radius))
-    np.testing.assert_allclose(inner, 0.8 * outer, rtol=0.03)
-    deep = NeckGauge.of(quads, arc=0.5, depth=0.9 * radius).necks(quads.points)
-    np.testing.assert_allclose(deep, LEAST_LEFT * outer, rtol=1e-12)

@@ -27,7 +27,6 @@ WISH = TileWish(
     levels=None,
     cells="auto",
     neck=0.1,
-    depth=0.0,
     resized=True,
     arc=0.5,
     seed=0,
