@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import seeds
 
-from fabricate.surface.smoothing import diffused, filled, low_pass, passes_over
-from fabricate.triangles.adjacency import neighbour_means
+from fabricate.surface.smoothing import diffused, filled, low_pass, passes_over, steadied
+from fabricate.triangles.adjacency import neighbour_distances, neighbour_means
 
 BALL = trimesh.creation.icosphere(subdivisions=3)
 POINTS = np.array(BALL.vertices)
@@ -50,6 +50,24 @@ def test_a_gap_is_filled_from_around_and_what_it_held_is_forgotten() -> None:
 
 def test_where_nothing_is_known_the_value_is_zero() -> None:
     assert not filled(POINTS, np.zeros(len(POINTS)), MEANS, passes=5).any()
+
+
+SPACING = neighbour_distances(POINTS, np.array(BALL.faces))
+
+
+@pytest.mark.parametrize("passes", [0, 4])
+def test_values_that_stand_out_are_replaced_by_those_around(passes: int) -> None:
+    moves = 0.1 * POINTS
+    wrong = moves.copy()
+    wrong[::37] += [3.0, -2.0, 1.0]
+    found = steadied(wrong, np.ones(len(moves)), MEANS, SPACING, passes=passes)
+    assert np.linalg.norm(found - moves, axis=1).max() < 0.05
+    assert np.linalg.norm(filled(wrong, np.ones(len(moves)), MEANS, passes=passes) - moves, axis=1).max() > 0.2
+
+
+def test_values_that_vary_no_more_than_places_do_stay() -> None:
+    moves = 0.5 * np.sin(5.0 * POINTS)
+    np.testing.assert_allclose(steadied(moves, np.ones(len(moves)), MEANS, SPACING, passes=0), moves, atol=0.01)
 
 
 @pytest.mark.parametrize("length", [2.0, 3.5])

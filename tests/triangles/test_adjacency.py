@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import directed_edges, hull, on_sphere, seeds, tetrahedron
 
-from fabricate.triangles.adjacency import grown, neighbour_means, undirected_edges
+from fabricate.triangles.adjacency import grown, neighbour_distances, neighbour_means, undirected_edges
 
 
 @st.composite
@@ -70,3 +70,12 @@ def test_all_and_nothing_stay_what_they_are(state: bool) -> None:
     triangles = tetrahedron().corners.reshape(-1, 3)
     mask = np.full(4, state)
     assert (grown(mask, neighbour_means(triangles, count=4), 3) == mask).all()
+
+
+@given(mesh=triangulations(), seed=seeds)
+def test_neighbours_are_as_far_as_their_mean_distance(mesh: tuple[np.ndarray, int], seed: int) -> None:
+    triangles, count = mesh
+    points = np.random.default_rng(seed).normal(size=(count, 3))
+    graph = graph_of(triangles)
+    wanted = [np.linalg.norm(points[list(graph[point])] - points[point], axis=1).mean() for point in range(count)]
+    np.testing.assert_allclose(neighbour_distances(points, triangles), wanted)

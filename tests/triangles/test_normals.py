@@ -9,7 +9,7 @@ from polyhedra import hull, octahedron, on_sphere, seeds
 
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import geodesic_sphere
-from fabricate.triangles.normals import unit, vertex_normals
+from fabricate.triangles.normals import mean_normals, unit, vertex_normals
 
 
 @st.composite
@@ -74,3 +74,12 @@ def test_unit_keeps_directions_and_only_zero_stays_short(vectors: np.ndarray) ->
 def test_zero_vectors_give_no_warning(shape: tuple[int, int]) -> None:
     with np.errstate(all="raise"):
         assert (unit(np.zeros(shape)) == 0).all()
+
+
+@given(mesh=bodies())
+def test_mean_normals_count_each_triangle_once_whatever_its_size(mesh: PolygonMesh) -> None:
+    wanted = np.zeros_like(mesh.points)
+    for triangle in mesh.corners.reshape(-1, 3).tolist():
+        a, b, c = mesh.points[triangle]
+        wanted[triangle] += unit(np.cross(b - a, c - a)[None])
+    np.testing.assert_allclose(mean_normals(mesh.points, mesh.corners.reshape(-1, 3)), unit(wanted), atol=1e-9)
