@@ -236,8 +236,8 @@ def test_where_ridges_are_sharp_the_inner_surface_is_mended(mesh: PolygonMesh, s
 def test_a_body_far_thinner_than_two_walls_still_has_parts_that_do_not_cross(share: float) -> None:
     mesh = sphere(faces="triangles", frequency=2)
     flat = sized(mesh.moved(mesh.points * [1.0, 1.0, share]), size=60)
-    surface = fitted_cut(grown_duotone(tiled(flat, tile_size=6), tree="random", seed=1), tolerance=0.3, clearance=0.3)
-    made = solids(surface, thickness=2.0, clearance=0.3)
+    surface = fitted_cut(grown_duotone(tiled(flat, tile_size=6), tree="random", seed=1), tolerance=0.3, clearance=0.15)
+    made = solids(surface, thickness=2.0, clearance=0.15)
     assert len(crossing_triangles(made.points, np.concatenate([made.yellow, made.blue]))) == 0
 
 
