@@ -43,7 +43,8 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     down = downward(surface, ways_in(surface, thickness=thickness))
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
-    safe = surface.points - SAFE_DEPTH * thickness * mean_normals(surface.points, surface.triangles)
+    straight = downward(surface, -mean_normals(surface.points, surface.triangles))
+    safe = surface.points + SAFE_DEPTH * thickness * straight
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
     fewest, waited = (len(inner), len(inner)), 0
