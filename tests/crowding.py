@@ -19,15 +19,19 @@ def roomy_torus() -> Duotone:
     return grown_duotone(tiled(mesh, tile_size=12), tree="random", seed=3)
 
 
-def crowded_torus() -> Duotone:
-    """A torus some of whose cage's points have been pulled together."""
+def crowded_cage() -> PolygonMesh:
+    """A torus's cage, some of whose points have been pulled together."""
     mesh = sized(torus(around=16, across=8, tube=0.45), size=60)
     grid = np.arange(16 * 8).reshape(16, 8)
     pinched = np.roll(grid, (1, 1), axis=(0, 1))[:3, :3].ravel()
     points = mesh.points.copy()
     middle = points[pinched].mean(axis=0)
     points[pinched] = middle + 0.05 * (points[pinched] - middle)
-    return grown_duotone(subdivided(PolygonMesh(points, mesh.corners, mesh.offsets), levels=1), tree="random", seed=3)
+    return PolygonMesh(points, mesh.corners, mesh.offsets)
+
+
+def crowded_torus() -> Duotone:
+    return grown_duotone(subdivided(crowded_cage(), levels=1), tree="random", seed=3)
 
 
 def crowded_box() -> Duotone:

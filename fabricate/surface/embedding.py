@@ -68,11 +68,6 @@ class Embedding:
         )
         return smallest
 
-    def folded(self, points: Floats) -> Mask:
-        """Return the points, (n,) bool, at which the surface doubles back on itself."""
-        sharp: Mask = self.openness(points) < OPEN
-        return sharp
-
     def faults_since(self, old: Floats) -> Faulty:
         """Return the test for crossings, and for folds sharper than those of the points `old`, (n, 3)."""
         least = np.minimum(self.openness(old), OPEN)

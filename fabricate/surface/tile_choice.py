@@ -84,8 +84,9 @@ def chosen_tiling(
 ) -> Tiling:
     """Return the tiles of a body that suit a wish best, in mm.
 
-    New cells are made for the surface of a scan, which is one of triangles, or of any mesh for which new cells are
-    asked for by name; and for the smooth surface of a cage whose own ones don't do.
+    A cage's own cells slide over its smooth surface if that makes their necks wide. New cells are made for the surface
+    of a scan, which is one of triangles, or of any mesh for which new cells are asked for by name; and for the smooth
+    surface of a cage whose own ones don't do.
 
     Parameters
     ----------

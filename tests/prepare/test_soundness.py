@@ -9,7 +9,7 @@ from polyhedra import HANDLES
 from fabricate.mesh.cube import cube
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import sphere
-from fabricate.prepare.soundness import crossing_faces, distances, fault, lost, topology_fault
+from fabricate.prepare.soundness import bridges, crossing_faces, distances, fault, lost, topology_fault
 from fabricate.prepare.triangle_mesh import fanned
 
 BALL = sphere(faces="triangles", frequency=6)
@@ -67,3 +67,19 @@ def test_a_few_lost_points_are_none() -> None:
     spiked = fanned(surface.polygons.moved(points))
     assert distances(surface.polygons, spiked.points).max() > 0.4
     assert not lost(surface.polygons, spiked, reach=0.1).any()
+
+
+def test_an_edge_through_a_plate_is_a_bridge() -> None:
+    """From the middle of its top to that of its bottom it is a long way round the rim."""
+    ball = sphere(faces="triangles", frequency=16)
+    plate = fanned(ball.moved(ball.points * [1.0, 1.0, 0.02]))
+    points = np.array([[0.0, 0.0, 0.02], [0.0, 0.0, -0.02], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+    through = PolygonMesh(points, np.array([0, 2, 3, 0, 3, 1, 0, 1, 2, 1, 3, 2]), np.arange(0, 13, 3))
+    assert bridges(through, plate, span=0.5).tolist() == [[0, 1]]
+    assert len(bridges(through, plate, span=2.0)) == 0
+
+
+def test_cells_that_follow_the_surface_have_no_bridges(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("fabricate.prepare.soundness.SOURCES", 5)
+    surface = fanned(sphere(faces="triangles", frequency=16))
+    assert len(bridges(sphere(faces="triangles", frequency=2), surface, span=0.1)) == 0

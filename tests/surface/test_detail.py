@@ -21,7 +21,7 @@ from fabricate.mesh.torus import torus
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.detail import Carried, carried
 from fabricate.surface.deviation import deviation
-from fabricate.surface.embedding import Embedding
+from fabricate.surface.embedding import OPEN, Embedding
 from fabricate.surface.limit import LimitSurface
 from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.normals import area_vectors, vertex_normals
@@ -80,7 +80,7 @@ def assert_sound(points: np.ndarray, triangles: np.ndarray) -> None:
     assert (held == points).all()
     assert len(crossing_triangles(points, triangles)) == 0
     assert area_vectors(held.astype(np.float64), triangles).any(axis=1).all()
-    assert not Embedding.of(triangles, count=len(points)).folded(points).any()
+    assert not (Embedding.of(triangles, count=len(points)).openness(points) < OPEN).any()
 
 
 def test_a_round_cage_lands_on_the_sphere() -> None:

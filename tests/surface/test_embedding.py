@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from fabricate.arrays import Mask
-from fabricate.surface.embedding import Embedding, stored
+from fabricate.surface.embedding import OPEN, Embedding, stored
 
 BALL = trimesh.creation.icosphere(subdivisions=2)
 POINTS, TRIANGLES = stored(np.array(BALL.vertices)), np.array(BALL.faces)
@@ -25,7 +25,7 @@ def pushed_through(point: int) -> np.ndarray:
 
 def test_a_sphere_has_no_fault() -> None:
     assert not EMBEDDING.crossed(POINTS, ALL).any()
-    assert not EMBEDDING.folded(POINTS).any()
+    assert not (EMBEDDING.openness(POINTS) < OPEN).any()
 
 
 def test_openness_is_the_cosine_of_the_steepest_side() -> None:
@@ -68,7 +68,7 @@ def folded_over() -> np.ndarray:
 
 
 def test_a_triangle_turned_over_makes_folds() -> None:
-    found = EMBEDDING.folded(folded_over())
+    found = EMBEDDING.openness(folded_over()) < OPEN
     assert found.any()
     near = np.unique(TRIANGLES[(TRIANGLES[11, 0] == TRIANGLES).any(axis=1)])
     assert np.isin(np.flatnonzero(found), near).all()

@@ -7,6 +7,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from crowding import crowded_cage
 
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.cube import cube
@@ -86,6 +87,28 @@ def test_necks_that_no_division_has_ask_for_new_cells(cells: str, new: bool, ask
     assert (tiling.surface is not None) == new
     assert [kind for kind, _ in asked] == ["quads"] * new
     assert any("necks" in note for note in tiling.notes) == new
+
+
+CROWDED = replace(WISH, size=60.0, tile_size=4.0, neck=0.8, cage=False)
+
+
+def test_a_cage_slides_until_its_necks_are_wide(asked: list[tuple[Cells, int]]) -> None:
+    tiling = chosen(crowded_cage(), CROWDED)
+    assert coarse_necks(GROW(tiling.quads), arc=0.5).min() >= CROWDED.neck
+    assert tiling.surface is not None
+    assert tiling.notes == ("the mesh's own cells slid over its surface until their necks were 0.8 mm wide",)
+    assert not asked
+
+
+@pytest.mark.parametrize("sound", [True, False])
+def test_nearly_all_necks_wide_will_do_where_new_quads_are_not_as_asked_for(
+    sound: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("fabricate.surface.tile_choice.widened", lambda quads, *_, **__: quads)
+    if sound:
+        monkeypatch.setattr("fabricate.surface.tiling.remeshed", lambda *_, **__: Remeshed(RING.scaled(50.0), ()))
+    tiling = chosen(crowded_cage(), CROWDED)
+    assert ("new quads" if sound else "but for") in tiling.notes[0]
 
 
 @pytest.mark.parametrize("cells", ["quads", "triangles", "hexagons"])
