@@ -170,6 +170,7 @@ def _wish(config: Config) -> tuple[TileWish, tuple[str, ...]]:
         levels=pattern.levels,
         cells=prepare.cells,
         neck=NECK_MARGIN * (feature + clearance),
+        clearance=clearance,
         resized=pattern.tile_size == "auto",
         arc=pattern.arc,
         seed=prepare.seed,

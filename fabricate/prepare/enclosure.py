@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from fabricate.mesh.closed import check_closed_manifold, signed_volume
+from fabricate.mesh.closed import check_closed_manifold
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.capping import lids
 from fabricate.prepare.ear_clipping import ear_clipped
 from fabricate.prepare.repaired import Action, Repaired
+from fabricate.prepare.thinnest import thicknesses
 from fabricate.prepare.unit_box import UnitBox
 from fabricate.prepare.wrap import finite_triangles, from_triangles, wrapped
 from fabricate.triangles.normals import area_vectors
@@ -17,14 +18,17 @@ OFFSET = 0.002
 """Distance of the wrap from a body, as a share of the diagonal: 0.3 mm on a diagonal of 150 mm, about a layer.
 A smaller one takes longer and fills creases with small triangles."""
 
-SHEET_OFFSET = 0.01
-"""The same for sheets, which become twice as thick: 3 mm on a diagonal of 150 mm, enough for two walls."""
+SHEET_OFFSET = 0.015
+"""The same for sheets, which become twice as thick: 4.5 mm on a diagonal of 150 mm, two walls of 2 mm and a gap."""
 
 FINEST, COARSEST = 0.01, 0.02
 """Bounds of alpha. Gaps narrower than 1 % of the diagonal are bridged: no tool of a duotone's size gets into them."""
 
 MOST_TRIANGLES = 24_000
 """Alpha is made coarser, within its bounds, until about so many are expected: the time grows with their number."""
+
+SHEET, SHEETS = 3.0, 0.01
+"""Of a sheet the wrap is two offsets thick. There are sheets when this share of its surface is thinner than so many."""
 
 _DENSITY = 1.4
 """Triangles of a wrap per area in units of alpha squared, as counted on scans."""
@@ -33,8 +37,8 @@ _DENSITY = 1.4
 def enclosed(mesh: PolygonMesh) -> Repaired:
     """Return the alpha wrap of a mesh in any state: closed, free of crossings, and slightly larger.
 
-    Small holes get lids first, as otherwise the wrap would line the inside, too. If the wrap turns out to be
-    no thicker than a sheet is made anyway, the surface is a sheet, and is wrapped again, further out.
+    Small holes get lids first, as otherwise the wrap would line the inside, too. If parts of the wrap turn out to be
+    no thicker than the skin round a sheet, all is wrapped again, further out.
 
     Raises
     ------
@@ -49,7 +53,7 @@ def enclosed(mesh: PolygonMesh) -> Repaired:
     points, covers, closed = lids(bare)
     whole, alpha = np.concatenate([triangles, covers]), _alpha(bare)
     wrap = wrapped(points, whole, alpha=alpha, offset=OFFSET)
-    if _mean_thickness(wrap) < 2 * SHEET_OFFSET:
+    if _share_thinner(wrap, SHEET * OFFSET) > SHEETS:
         wrap = wrapped(points, whole, alpha=alpha, offset=SHEET_OFFSET)
     check_closed_manifold(wrap)
     done = (Action("holes closed by lids", closed), Action("surfaces wrapped", 1))
@@ -61,9 +65,12 @@ def _alpha(mesh: PolygonMesh) -> float:
     return float(np.clip(np.sqrt(_DENSITY * 2 * _area(mesh) / MOST_TRIANGLES), FINEST, COARSEST))
 
 
-def _mean_thickness(mesh: PolygonMesh) -> float:
-    """Return the thickness of a plate with the same volume and area."""
-    return 2 * signed_volume(mesh) / _area(mesh)
+def _share_thinner(mesh: PolygonMesh, thickness: float) -> float:
+    """Return the share of a closed surface of triangles behind which the body is less thick."""
+    triangles = mesh.corners.reshape(-1, 3)
+    areas = np.linalg.norm(area_vectors(mesh.points, triangles), axis=1)
+    thin = thicknesses(mesh.points, triangles) < thickness
+    return float(areas[thin].sum() / areas.sum())
 
 
 def _area(mesh: PolygonMesh) -> float:

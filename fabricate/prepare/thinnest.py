@@ -1,4 +1,4 @@
-"""The thinnest place of a closed mesh, measured by rays straight inward."""
+"""How thick a closed mesh is, measured by rays straight inward."""
 
 from __future__ import annotations
 
@@ -39,6 +39,24 @@ def thinnest_place(points: Floats, triangles: Indices) -> Thinnest | None:
     triangles : (t, 3) int
         Facing outward.
     """
+    found = thicknesses(points, triangles)
+    first = int(found.argmin()) if len(found) else -1
+    if first < 0 or not np.isfinite(found[first]):
+        return None
+    return Thinnest(float(found[first]), points[triangles[first]].mean(axis=0))
+
+
+def thicknesses(points: Floats, triangles: Indices) -> Floats:
+    """Return the distance from each triangle's middle straight inward to an opposite face, (t,) float.
+
+    It is infinite where there is none, and where no ray was sent, as from triangles without area.
+
+    Parameters
+    ----------
+    points : (n, 3) float
+    triangles : (t, 3) int
+        Facing outward.
+    """
     box = UnitBox.of(points)
     placed = box.placed(points)
     normals = unit(area_vectors(placed, triangles))
@@ -47,9 +65,7 @@ def thinnest_place(points: Floats, triangles: Indices) -> Thinnest | None:
     middles, inward = placed[triangles[sending]].mean(axis=1), -normals[sending]
     hits = first_hits(placed, triangles, middles + START * inward, inward)
     cosines = np.einsum("ij,ij->i", normals[sending], normals[hits.triangle])
-    distance = np.where((hits.triangle >= 0) & (cosines < OPPOSITE), hits.distance + START, np.inf)
-    first = int(distance.argmin()) if len(distance) else -1
-    if first < 0 or not np.isfinite(distance[first]):
-        return None
-    thickness = float(distance[first]) * box.diagonal * box.unit
-    return Thinnest(thickness, points[triangles[sending[first]]].mean(axis=0))
+    opposite = (hits.triangle >= 0) & (cosines < OPPOSITE)
+    found = np.full(len(triangles), np.inf)
+    found[sending] = np.where(opposite, hits.distance + START, np.inf) * box.diagonal * box.unit
+    return found

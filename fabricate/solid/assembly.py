@@ -19,7 +19,7 @@ import numpy as np
 from fabricate.arrays import Floats, Indices, frozen
 from fabricate.solid.facing import wall_gaps
 from fabricate.solid.floor import floor_drop, lowered
-from fabricate.solid.layers import Layer, flipped, layer, layer_shares, shares_near, wall
+from fabricate.solid.layers import Layer, flipped, hugging, layer, layer_shares, shares_near, wall
 from fabricate.solid.part import Part
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import unit
@@ -128,8 +128,8 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, core: Core)
     """
     down = unit(inner - surface.points)
     drop = floor_drop(inner, surface.triangles, down, clearance=clearance)
-    depth = np.linalg.norm(inner - surface.points, axis=1)[surface.curve]
-    nearness = np.clip((clearance - depth) / (CLOSE * clearance), 0.0, 1.0)
+    depth = np.linalg.norm(inner - surface.points, axis=1)
+    nearness = np.clip((clearance - depth[surface.curve]) / (CLOSE * clearance), 0.0, 1.0)
     inlaid = surface.triangles[surface.yellow if core == "blue" else ~surface.yellow]
     wanted = np.full(len(surface.curve), clearance)
     for _ in range(CORRECTIONS):
@@ -137,6 +137,7 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, core: Core)
         outer, inner_own, *floor_own = [layer_shares(surface, points, down, clearance=wanted) for points in levels]
         shares = [outer, shares_near(outer, inner_own, nearness=nearness), *floor_own]
         layers = [layer(surface, *each) for each in zip(levels, shares, strict=True)]
+        layers[1] = hugging(surface, layers[0], layers[1], depth=depth)
         missing = clearance / np.maximum(_wall_gaps(surface, layers, core), 1e-9)
         short = (missing > NOTHING_MISSING).any()
         if core != "hollow":

@@ -97,9 +97,12 @@ def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearanc
     part = _smoothed(0.5 + crowded * (room[0] / room.sum(axis=0) - 0.5))
     way = wanted * np.stack([part, 1.0 - part]) / room
     suspects = np.arange(len(normals))
+    copies = np.empty_like(normals), np.empty_like(normals)
     for _ in range(ROUNDS):
         shares = Shares(*np.minimum(way, FARTHEST))
-        near = too_near(sides, shares, WANTED * wanted, suspects=suspects) & (way < FARTHEST).any(axis=0)
+        for copy, moved in zip(copies, moved_copies(sides, shares, suspects), strict=True):
+            copy[suspects] = moved
+        near = too_near(copies, WANTED * wanted, suspects=suspects) & (way < FARTHEST).any(axis=0)
         if not near.any():
             break
         pushed = _smoothed(near.astype(np.float64))
@@ -145,13 +148,18 @@ def _slants(sides: RaySides, normals: Floats) -> tuple[Floats, Floats]:
     return slants[0], slants[1]
 
 
-def too_near(sides: RaySides, shares: Shares, least: Floats, *, suspects: Indices) -> Mask:
+def moved_copies(sides: RaySides, shares: Shares, numbers: Indices) -> tuple[Floats, Floats]:
+    """Return where yellow's and blue's copies of some curve points come to lie, (k, 3) float each, mm."""
+    yellow, blue = (along(side[numbers], share[numbers, None])[:, 0] for side, share in zip(sides, shares, strict=True))
+    return yellow, blue
+
+
+def too_near(copies: tuple[Floats, Floats], least: Floats, *, suspects: Indices) -> Mask:
     """Return at which of the suspected curve points, or midway to the next, the copies are nearer than `least`.
 
     Each copy is compared with the other one's pieces a few points up and down the curve; what else may come
     near is for the tests of the parts to find.
     """
-    copies = [along(side, share[:, None])[:, 0] for side, share in zip(sides, shares, strict=True)]
     count = len(copies[0])
     window = (suspects[:, None] + np.arange(-REACH, REACH + 2)) % count
     near: Mask = np.zeros(count, dtype=bool)

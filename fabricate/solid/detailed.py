@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from fabricate.duotone.duotone import Duotone
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.solid.settling import settled
@@ -13,6 +15,10 @@ from fabricate.surface.detail_resolution import detail_resolution
 from fabricate.surface.limit import LimitSurface
 from fabricate.surface.resolution import resolution_for
 from fabricate.surface.sizing import typical_side
+
+SHARE_WITHIN = 0.95
+"""Share of the edges on which the chord tolerance holds before detail is carried. The rest is where the smooth surface
+bends sharply, at thin parts and between uneven cells, and there it is not what is made."""
 
 
 def detailed_cut(duotone: Duotone, onto: TriangleMesh, *, arc: float, tolerance: float, clearance: float) -> CutSurface:
@@ -29,7 +35,9 @@ def detailed_cut(duotone: Duotone, onto: TriangleMesh, *, arc: float, tolerance:
     """
     side = typical_side(duotone.quads)
     resolution = max(
-        resolution_for(duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance),
+        resolution_for(
+            duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance, share=SHARE_WITHIN, worst=np.inf
+        ),
         detail_resolution(onto.points, onto.triangles, tile_side=side),
     )
     surface = settled(duotone, clearance=clearance, arc=arc, resolution=resolution)

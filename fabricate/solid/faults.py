@@ -6,8 +6,9 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.solid.assembly import Assembly
-from fabricate.triangles.crossing import crossing_triangles, triangles_near
+from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.edge_pieces import EdgePieces, near_edges
+from fabricate.triangles.nearby import triangles_near
 from fabricate.triangles.search_tree import SearchTree
 
 GAP_SHARE = 0.965

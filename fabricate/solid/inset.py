@@ -12,12 +12,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from fabricate.arrays import Floats, Mask
+from fabricate.arrays import Floats, Indices, Mask
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.mitre import Mitred, ways_out
 from fabricate.surface.smoothing import diffused
 from fabricate.triangles.adjacency import grown, undirected_edges
-from fabricate.triangles.normals import area_vectors, unit
+from fabricate.triangles.normals import area_vectors, mean_normals, unit
 from fabricate.triangles.ray_casting import first_hits
 
 DEPTH_SLOPE = 0.7
@@ -45,7 +45,7 @@ TILES, SLIDES = 1, 36
 """How far around a fault points slide, in tiles, and how often in a round."""
 
 RETREAT = 0.4
-"""Share of the way back to a safe depth that points near a stubborn fault move in a round."""
+"""Share of the way back to a safe depth that points near a stubborn fault move in a round, times how often they did."""
 
 SAFE_DEPTH = 0.002
 """The safe depth, as a share of the thickness: straight in, and so little that a surface that is embedded stays so."""
@@ -68,27 +68,31 @@ def ways_in(surface: CutSurface, *, thickness: float) -> Floats:
     return ways
 
 
-def downward(surface: CutSurface, ways: Floats) -> Floats:
+def downward(points: Floats, triangles: Indices, ways: Floats) -> Floats:
     """Return the ways into the body from each point, (n, 3), turned where they do not go in.
 
     Where a coarse tessellation bends so sharply that a way hardly goes through one of the triangles around a
     point, or not at all, it turns towards those triangles' own until it goes in through all of them, if there is
     such a way.
     """
-    facets = unit(area_vectors(surface.points, surface.triangles))
+    facets = unit(area_vectors(points, triangles))
     length = np.linalg.norm(ways, axis=1, keepdims=True)
     way: Floats = unit(ways)
-    corners = surface.triangles
     for _ in range(TURNS):
-        shallow = -np.einsum("ij,ikj->ik", facets, way[corners]) < LEAST_STEEP
+        shallow = -np.einsum("ij,ikj->ik", facets, way[triangles]) < LEAST_STEEP
         if not shallow.any():
             break
         pull = np.zeros_like(way)
         for k in range(3):
-            np.add.at(pull, corners[shallow[:, k], k], -facets[shallow[:, k]])
+            np.add.at(pull, triangles[shallow[:, k], k], -facets[shallow[:, k]])
         way = unit(way + TURN * unit(pull))
     turned: Floats = length * way
     return turned
+
+
+def straight_down(points: Floats, triangles: Indices) -> Floats:
+    """Return the unit ways into a body that go in through all triangles at each point, if any do, (n, 3)."""
+    return downward(points, triangles, -mean_normals(points, triangles))
 
 
 def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float, between: float) -> Floats:
@@ -143,14 +147,24 @@ def relaxed(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) 
     return inner
 
 
-def retreated(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array, *, safe: Floats) -> Floats:
-    """Return the inner points around the faulty ones moved part of the way to `safe`, (n, 3).
+def retreating(surface: CutSurface, faulty: Mask, means: csr_array) -> Mask:
+    """Return the points, (n,) bool, that retreat for the faulty ones.
 
     A ray with a faulty point moves as a whole, because the clearance is made along it.
     """
     around = faulty.copy()
     around[surface.rays[faulty[surface.rays].any(axis=2)]] = True
-    weight = grown(around, means, 1).astype(np.float64)
+    return grown(around, means, 1)
+
+
+def retreated(inner: Floats, around: Mask, means: csr_array, *, safe: Floats, times: Indices) -> Floats:
+    """Return the inner points moved part of the way to `safe`, (n, 3), which is more the oftener they had to.
+
+    Those `around`, (n,) bool, do, and some near them by less; `times`, (n,) int, counts how often they did, with this
+    one.
+    """
+    weight = around.astype(np.float64)
     for _ in range(RINGS):
         weight = np.maximum(weight, means @ weight)
-    return inner + RETREAT * weight[:, None] * (safe - inner)
+    share = np.minimum(RETREAT * np.maximum(times, 1), 1.0)
+    return inner + (share * weight)[:, None] * (safe - inner)

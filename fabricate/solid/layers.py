@@ -8,8 +8,12 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices
 from fabricate.solid.clearance import Shares, along, clearance_shares, ray_sides
+from fabricate.solid.inset import straight_down
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import vertex_normals
+
+NEAR = 0.01
+"""Depth, mm, down to which an inner layer hugs the outer one; twice as deep it does not any more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +58,25 @@ def layer(surface: CutSurface, points: Floats, shares: Shares) -> Layer:
         copy = points.copy()
         copy[number] = _closed_up(side, share)
         copies.append(copy)
+    return Layer(*copies)
+
+
+def hugging(surface: CutSurface, upper: Layer, lower: Layer, *, depth: Floats) -> Layer:
+    """Return the lower layer with each copy straight under that of the upper one where that is hardly above it.
+
+    Closing up turns triangles, so what is straight under the surface need not be so under its copies. `depth`, (n,)
+    mm, is how far the layers are apart.
+    """
+    near = np.clip(2.0 - depth / NEAR, 0.0, 1.0)[:, None]
+    if not near.any():
+        return lower
+    copies = []
+    for above, below, region in (
+        (upper.yellow, lower.yellow, surface.yellow),
+        (upper.blue, lower.blue, ~surface.yellow),
+    ):
+        straight = above + depth[:, None] * straight_down(above, surface.triangles[region])
+        copies.append(below + near * (straight - below))
     return Layer(*copies)
 
 

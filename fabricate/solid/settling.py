@@ -15,7 +15,7 @@ import numpy as np
 from fabricate.arrays import Mask
 from fabricate.duotone.duotone import Duotone
 from fabricate.errors import SolidError
-from fabricate.solid.clearance import check_necks, clearance_shares, ray_sides, too_near
+from fabricate.solid.clearance import check_necks, clearance_shares, moved_copies, ray_sides, too_near
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
 from fabricate.surface.resolution import resolution_for
@@ -81,7 +81,7 @@ def tight_tiles(surface: CutSurface, *, clearance: float) -> Mask:
     for depth in (0.0, BENEATH):
         sides = ray_sides(surface, surface.points - depth * surface.normals)
         shares = clearance_shares(sides, upright, -upright, clearance=wanted)
-        near |= too_near(sides, shares, ENOUGH * wanted, suspects=everywhere)
+        near |= too_near(moved_copies(sides, shares, everywhere), ENOUGH * wanted, suspects=everywhere)
     tight: Mask = np.zeros(len(surface.order) // 2, dtype=bool)
     tight[surface.order[near.reshape(len(surface.order), -1).any(axis=1)] // 2] = True
     return tight

@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_array
 
-from fabricate.arrays import Floats, Mask
+from fabricate.arrays import Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.clearance import check_necks
 from fabricate.solid.faults import crossing_points, near_points
-from fabricate.solid.inset import SAFE_DEPTH, capped_depth, downward, relaxed, retreated, spread, ways_in
+from fabricate.solid.inset import (
+    SAFE_DEPTH,
+    capped_depth,
+    downward,
+    relaxed,
+    retreated,
+    retreating,
+    spread,
+    straight_down,
+    ways_in,
+)
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
-from fabricate.triangles.normals import mean_normals
 
 RETREAT_FROM, ALL_ROUNDS = 4, 60
 """Round from which stubborn places retreat, and rounds in all; the checks report what is left."""
@@ -40,13 +48,13 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     _check_sizes(surface, thickness, clearance)
     _check_embedded(surface)
     between = 1.1 * clearance if core == "hollow" else 2.0 * clearance + CORE_WEB
-    down = downward(surface, ways_in(surface, thickness=thickness))
+    down = downward(surface.points, surface.triangles, ways_in(surface, thickness=thickness))
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
-    straight = downward(surface, -mean_normals(surface.points, surface.triangles))
-    safe = surface.points + SAFE_DEPTH * thickness * straight
+    safe = surface.points + SAFE_DEPTH * thickness * straight_down(surface.points, surface.triangles)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
+    times = np.zeros(len(inner), dtype=np.int64)
     fewest, waited = (len(inner), len(inner)), 0
     for step in range(ALL_ROUNDS):
         made = assembly(surface, inner, clearance=clearance, core=core)
@@ -59,16 +67,15 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
             fewest, waited = min(fewest, left), waited + 1 if left >= fewest else 0
             if waited == PATIENCE:
                 break
-        mended = _mended(surface, inner, faulty, means, safe=safe, step=step)
+        if step < RETREAT_FROM:
+            mended = relaxed(surface, spread(surface, inner, faulty, means), faulty, means)
+        else:
+            around = retreating(surface, faulty, means)
+            times += around
+            mended = retreated(inner, around, means, safe=safe, times=times)
         moved = (mended != inner).any(axis=1)
         inner = mended
     return made
-
-
-def _mended(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array, *, safe: Floats, step: int) -> Floats:
-    if step >= RETREAT_FROM:
-        return retreated(surface, inner, faulty, means, safe=safe)
-    return relaxed(surface, spread(surface, inner, faulty, means), faulty, means)
 
 
 def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> tuple[Mask, Mask]:

@@ -11,7 +11,8 @@ from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.triangles.adjacency import neighbour_means
-from fabricate.triangles.crossing import crossing_triangles, triangles_near
+from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.nearby import triangles_near
 from fabricate.triangles.normals import area_vectors, mean_normals, unit
 
 Faulty: TypeAlias = Callable[[Floats, Mask], Mask]

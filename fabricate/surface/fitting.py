@@ -9,11 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.duotone.catmull_clark import Subdivision, catmull_clark
 from fabricate.duotone.quad_mesh import QuadMesh
-from fabricate.surface.embedding import Embedding, Faulty
+from fabricate.surface.embedding import Embedding, Faulty, stored
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.smoothing import steadied
 from fabricate.surface.stepping import stepped, untangled
@@ -31,7 +32,8 @@ REACH = 0.12
 def fitted(quads: QuadMesh, onto_points: Floats, onto_triangles: Indices) -> QuadMesh:
     """Return the quads with control points moved until the limit surface lies close to a closed surface; mm.
 
-    Only where the limit surface would cross itself it stays away from the target.
+    Only where the limit surface would cross itself it stays away from the target. Where it does from the beginning, as
+    that of coarse cells on a thin part that shrinks to nothing, it is drawn to the target first, which mostly cures it.
 
     Parameters
     ----------
@@ -47,17 +49,37 @@ def fitted(quads: QuadMesh, onto_points: Floats, onto_triangles: Indices) -> Qua
     """
     target = Target.of(onto_points, onto_triangles)
     reach = REACH * float(np.linalg.norm(np.ptp(onto_points, axis=0)))
-    fans = _fans(quads.tiles)
-    means = neighbour_means(fans, count=len(quads.points))
     shape = _LimitShape.of(quads)
-    points = untangled(quads.points, means, shape.crossed)
+    everywhere = np.ones(len(quads.points), dtype=bool)
+    points = _drawn(quads, shape, target, reach=reach)
+    if shape.crossed(points, everywhere).any():
+        start = untangled(quads.points, _means(quads), shape.crossed)
+        points = _drawn(replace(quads, points=start), shape, target, reach=reach)
+    return replace(quads, points=points)
+
+
+def _drawn(quads: QuadMesh, shape: _LimitShape, target: Target, *, reach: float) -> Floats:
+    """Return control points whose limit surface is drawn to the target, but for where it crosses itself to the end."""
+    fans, means = _fans(quads.tiles), _means(quads)
+    points = stored(quads.points)
+    tangled = shape.crossed(points, np.ones(len(points), dtype=bool))
     for passes in SCHEDULE:
         limit = limit_vertices(replace(quads, points=points))
         aims = target.aims(limit, vertex_normals(limit, fans), reach=reach)
         spacing = neighbour_distances(limit, fans)
         move = steadied(aims.place - limit, aims.weight, means, spacing, passes=passes)
-        points = stepped(points, points + move, means, shape.faults_since(points))
-    return replace(quads, points=points)
+        points = stepped(points, points + move, means, _but_for(tangled, shape.faults_since(points)))
+        tangled &= shape.crossed(points, tangled)
+    return points
+
+
+def _but_for(exempt: Mask, faulty: Faulty) -> Faulty:
+    """Return the test without some points, (n,) bool."""
+    return lambda points, moved: faulty(points, moved) & ~exempt
+
+
+def _means(quads: QuadMesh) -> csr_array:
+    return neighbour_means(_fans(quads.tiles), count=len(quads.points))
 
 
 @dataclass(frozen=True, eq=False)

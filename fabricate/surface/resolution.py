@@ -24,11 +24,20 @@ them falls more slowly than with the square of the resolution; refining everythi
 """
 
 
-def resolution_for(duotone: Duotone, limit: LimitSurface, *, arc: float, tolerance: float) -> int:
+def resolution_for(
+    duotone: Duotone,
+    limit: LimitSurface,
+    *,
+    arc: float,
+    tolerance: float,
+    share: float = SHARE_WITHIN,
+    worst: float = WORST_FACTOR,
+) -> int:
     """Return the smallest resolution, at least 3, that keeps the chord error within `tolerance` mm.
 
-    The error falls with the square of the resolution: it is measured at a coarse one, predicted from
-    there, and then measured until it holds.
+    It does on that share of the edges, and no edge is off by more than `worst` times the tolerance. The error falls
+    with the square of the resolution: it is measured at a coarse one, predicted from there, and then measured until
+    it holds.
 
     Raises
     ------
@@ -36,7 +45,7 @@ def resolution_for(duotone: Duotone, limit: LimitSurface, *, arc: float, toleran
         If the tessellation would have more than four million triangles.
     """
     coarse = chord_errors(duotone, limit, arc=arc, resolution=2)
-    predicted = 2.0 * np.sqrt(float(np.quantile(coarse, SHARE_WITHIN)) / tolerance)
+    predicted = 2.0 * np.sqrt(float(np.quantile(coarse, share)) / tolerance)
     resolution = max(MIN_RESOLUTION, int(0.8 * predicted))
     while True:
         triangles = _triangles(resolution) * len(duotone.joined)
@@ -46,8 +55,8 @@ def resolution_for(duotone: Duotone, limit: LimitSurface, *, arc: float, toleran
                 f"{MAX_TRIANGLES}; ask for a larger solid.tolerance or a larger pattern.tile_size"
             )
         errors = chord_errors(duotone, limit, arc=arc, resolution=resolution)
-        within = float(np.quantile(errors, SHARE_WITHIN)) <= tolerance
-        if within and float(errors.max()) <= WORST_FACTOR * tolerance:
+        within = float(np.quantile(errors, share)) <= tolerance
+        if within and float(errors.max()) <= worst * tolerance:
             return resolution
         resolution += 1
 

@@ -29,7 +29,8 @@ HOPELESS = 0.7
 """The neck of a typical tile, which is 0.41 of its side on a square, is never as wide as this."""
 
 MOST_NARROW = 0.1
-"""A cage keeps its own cells with no larger a share of narrow necks where new quads do not come out as asked for."""
+"""Own cells are kept with no larger a share of necks that have no room for the clearance; and a cage's with no larger a
+share that are too narrow to print, where new quads do not come out as asked for."""
 
 CellChoice: TypeAlias = Literal["auto", "as-is"] | Cells
 
@@ -47,9 +48,12 @@ class TileWish:
     levels : int or None
         How often a body's own quads are divided in four.
     cells : {"auto", "as-is", "quads", "triangles", "hexagons"}
-        "auto": the body's own, unless they are too fine, or give no tiling with wide enough necks.
+        "auto": the body's own, unless they are too fine, have no room for the clearance, or, if tiles may be resized,
+        give no tiling with wide enough necks.
     neck : float
         Narrowest neck that will do, mm, before clearance is taken off.
+    clearance : float
+        Gap between facing walls, mm.
     resized : bool
         Whether coarser own cells, or new ones, may take the place of tiles with narrower necks.
     arc : float
@@ -67,6 +71,7 @@ class TileWish:
     levels: int | None
     cells: CellChoice
     neck: float
+    clearance: float
     resized: bool
     arc: float
     seed: int
@@ -113,9 +118,9 @@ def chosen_tiling(
         return own_tiling(mesh, size=wish.size, tile_size=None, levels=wish.levels, round_limit=wish.round_limit)
     if cells == "as-is" or (cells == "auto" and not too_fine(mesh, size=wish.size, tile_size=tile_size)):
         own = own_tilings(mesh, size=wish.size, tile_size=tile_size, round_limit=wish.round_limit)
-        wide = _first_with_necks(own, wish.neck, wish.arc, grow) if wish.resized else own[0]
-        if wide is not None or cells == "as-is":
-            return wide or own[0]
+        suited = _suited(own, wish, grow)
+        if suited is not None or cells == "as-is":
+            return suited or own[0]
         return _instead_of(own, mesh, wish, tile_size, grow=grow, progress=progress, store=store)
     kind: Cells = "quads" if cells == "auto" else cells
     return _new(mesh, wish, kind, tile_size, progress=progress, store=store)
@@ -158,7 +163,11 @@ def _instead_of(
     made = _new(mesh, wish, "quads", tile_size, progress=progress, store=store)
     if slid is not None and made.notes and narrow <= MOST_NARROW:
         return slid
-    note = f"no division of the mesh's own cells has necks of {wish.neck:.3g} mm: the cells are new quads"
+    note = (
+        f"no division of the mesh's own cells has necks of {wish.neck:.3g} mm: the cells are new quads"
+        if wish.resized
+        else f"the clearance of {wish.clearance:g} mm does not fit into the mesh's own cells: they are new quads"
+    )
     return replace(made, notes=(note, *made.notes))
 
 
@@ -189,6 +198,16 @@ def _surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:
     if wish.cage or (wish.cells == "auto" and not mostly_triangles(mesh)):
         return smooth_surface(mesh, size=wish.size, round_limit=wish.round_limit)
     return input_surface(mesh, size=wish.size)
+
+
+def _suited(own: tuple[Tiling, ...], wish: TileWish, grow: Callable[[QuadMesh], Duotone]) -> Tiling | None:
+    """Return the own tiling to take, if any: of the size asked for it only has to have room for the clearance."""
+    if wish.resized:
+        return _first_with_necks(own, wish.neck, wish.arc, grow)
+    if wish.cells == "as-is":
+        return own[0]
+    without_room = coarse_necks(grow(own[0].quads), arc=wish.arc) <= wish.clearance
+    return own[0] if without_room.mean() <= MOST_NARROW else None
 
 
 def _first_with_necks(

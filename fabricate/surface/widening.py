@@ -6,6 +6,7 @@ import numpy as np
 
 from fabricate.arrays import Mask
 from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.errors import SolidError
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.surface.fitting import fitted
 from fabricate.surface.neck import NeckGauge
@@ -14,6 +15,9 @@ from fabricate.surface.squaring import squared
 
 TYPICAL_SHARE = 0.8
 """No neck is widened beyond this share of the typical one: where that is too narrow, tiles are too small altogether."""
+
+MOST_NARROW = 0.2
+"""With a larger share of narrow tiles there is nowhere that room could come from."""
 
 FITS, ROUNDS, SLIDES = 4, 8, 4
 """Fits to the surface, rounds of measuring and pushing before each, and slides in a round."""
@@ -28,8 +32,8 @@ EMPHASIS = 6.0
 def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float) -> QuadMesh:
     """Return tiles that slid over a surface until each can be joined, one way or the other, `neck` mm wide or more.
 
-    Where a body is too thin for that, the tiling with the fewest narrow tiles is returned; the very same quads if
-    none is narrow.
+    Where a body is too thin for that, the tiling with the fewest narrow tiles is returned, of those whose smooth
+    surface does not cross itself; the very same quads if none is narrow, or far too many are.
 
     Parameters
     ----------
@@ -52,7 +56,7 @@ def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float) -> 
     best, fewest = quads, int(np.count_nonzero(narrow(quads)))
     side, push = typical_side(quads), np.ones(len(quads.tiles))
     for _ in range(FITS):
-        if not fewest:
+        if not 0 < fewest <= MOST_NARROW * len(quads.tiles):
             break
         for _ in range(ROUNDS):
             wanting = narrow(quads)
@@ -61,7 +65,12 @@ def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float) -> 
             push = np.where(wanting, np.minimum(PUSH * push, MOST_PUSH), 1.0 + EASE * (push - 1.0))
             for _ in range(SLIDES):
                 quads = squared(quads, sides=side * push, weights=push**EMPHASIS)
-        quads = fitted(quads, onto.points, onto.triangles)
+        try:
+            quads = fitted(quads, onto.points, onto.triangles)
+        except SolidError:
+            break
         count = int(np.count_nonzero(narrow(quads)))
-        best, fewest = (quads, count) if count < fewest else (best, fewest)
+        if count >= fewest:
+            break
+        best, fewest = quads, count
     return best

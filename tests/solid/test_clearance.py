@@ -10,7 +10,16 @@ from polyhedra import seeds
 
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.torus import torus
-from fabricate.solid.clearance import FARTHEST, RaySides, Shares, along, clearance_shares, ray_sides, too_near
+from fabricate.solid.clearance import (
+    FARTHEST,
+    RaySides,
+    Shares,
+    along,
+    clearance_shares,
+    moved_copies,
+    ray_sides,
+    too_near,
+)
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -71,17 +80,15 @@ def shares_of(surface: CutSurface, clearance: float) -> Shares:
 @pytest.mark.parametrize("clearance", [0.1, 0.3, 0.6])
 def test_copies_are_the_clearance_apart(surface: CutSurface, clearance: float) -> None:
     shares = shares_of(surface, clearance)
-    yellow, blue = (along(side, share[:, None])[:, 0] for side, share in zip(sides_of(surface), shares, strict=True))
+    yellow, blue = moved_copies(sides_of(surface), shares, np.arange(len(surface.curve)))
     apart = np.linalg.norm(yellow[:, None] - blue[None], axis=2).min(axis=1)
     assert apart.min() >= 0.97 * clearance
     assert np.median(apart) <= 1.5 * clearance
 
 
 def test_half_is_given_by_either_side_where_there_is_room(surface: CutSurface) -> None:
-    moved = [
-        np.linalg.norm(along(side, share[:, None])[:, 0] - side[:, 0], axis=1)
-        for side, share in zip(sides_of(surface), shares_of(surface, 0.2), strict=True)
-    ]
+    copies = moved_copies(sides_of(surface), shares_of(surface, 0.2), np.arange(len(surface.curve)))
+    moved = [np.linalg.norm(copy - surface.points[surface.curve], axis=1) for copy in copies]
     assert np.median(moved[0]) == pytest.approx(np.median(moved[1]), rel=0.1)
 
 
@@ -95,17 +102,18 @@ def test_no_copy_leaves_its_rays(surface: CutSurface, clearance: float) -> None:
 def test_what_does_not_fit_is_too_near(surface: CutSurface) -> None:
     sides, everywhere = sides_of(surface), np.arange(len(surface.curve))
     shares, least = shares_of(surface, 50.0), np.full(len(everywhere), 50.0)
-    assert too_near(sides, shares, least, suspects=everywhere).all()
+    assert too_near(moved_copies(sides, shares, everywhere), least, suspects=everywhere).all()
 
 
 def test_what_fits_is_not(surface: CutSurface) -> None:
     sides, everywhere = sides_of(surface), np.arange(len(surface.curve))
     least = np.full(len(everywhere), 0.99 * 0.3)
-    assert not too_near(sides, shares_of(surface, 0.3), least, suspects=everywhere).any()
+    assert not too_near(moved_copies(sides, shares_of(surface, 0.3), everywhere), least, suspects=everywhere).any()
 
 
 def test_only_suspects_are_looked_at(surface: CutSurface) -> None:
     sides = sides_of(surface)
     still = Shares(*np.zeros((2, len(surface.curve))))
-    near = too_near(sides, still, np.full(len(surface.curve), 0.1), suspects=np.array([5]))
+    copies = moved_copies(sides, still, np.arange(len(surface.curve)))
+    near = too_near(copies, np.full(len(surface.curve), 0.1), suspects=np.array([5]))
     assert set(np.flatnonzero(near).tolist()) == {5, 6}

@@ -9,7 +9,7 @@ from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.cube import cube
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
-from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, downward, relaxed, retreated, spread, ways_in
+from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, downward, relaxed, retreated, retreating, spread, ways_in
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -88,18 +88,29 @@ def test_relaxing_flattens_a_spike_and_leaves_what_is_far(surface: CutSurface) -
 def test_retreating_goes_towards_the_safe_depth_and_never_beyond(surface: CutSurface) -> None:
     means = neighbour_means(surface.triangles, count=len(surface.points))
     inner, safe, faulty = under(surface), surface.points - 0.1 * surface.normals, one(surface)
-    moved = retreated(surface, inner, faulty, means, safe=safe)
+    around = retreating(surface, faulty, means)
+    moved = retreated(inner, around, means, safe=safe, times=around.astype(int))
     depth = np.einsum("ij,ij->i", surface.points - moved, surface.normals)
     assert depth.min() >= 0.1 - 1e-9
     assert depth.max() <= DEPTH + 1e-9
     assert depth[faulty].max() < 0.7 * DEPTH
 
 
+def test_what_retreats_often_is_soon_at_the_safe_depth(surface: CutSurface) -> None:
+    means = neighbour_means(surface.triangles, count=len(surface.points))
+    inner, safe, faulty = under(surface), surface.points - 0.1 * surface.normals, one(surface)
+    around = retreating(surface, faulty, means)
+    for round_number in (1, 2, 3):
+        inner = retreated(inner, around, means, safe=safe, times=round_number * around)
+    assert (inner == safe)[around].all()
+
+
 def test_a_ray_retreats_as_a_whole(surface: CutSurface) -> None:
     means = neighbour_means(surface.triangles, count=len(surface.points))
     ray = surface.curve_rays[9]
     inner, safe = under(surface), surface.points - 0.1 * surface.normals
-    moved = retreated(surface, inner, one(surface, int(ray[1])), means, safe=safe)
+    around = retreating(surface, one(surface, int(ray[1])), means)
+    moved = retreated(inner, around, means, safe=safe, times=around.astype(int))
     way = np.linalg.norm(moved - inner, axis=1)[ray]
     assert way == pytest.approx(np.full(len(ray), way[0]))
     assert way[0] > 0
@@ -108,11 +119,13 @@ def test_a_ray_retreats_as_a_whole(surface: CutSurface) -> None:
 @pytest.mark.parametrize("kind", ["spread", "relaxed", "retreated"])
 def test_nothing_faulty_moves_nothing(surface: CutSurface, kind: str) -> None:
     means = neighbour_means(surface.triangles, count=len(surface.points))
-    inner, none = under(surface), np.zeros(len(surface.points), dtype=bool)
+    inner, none, safe = under(surface), np.zeros(len(surface.points), dtype=bool), surface.points
     result = {
         "spread": lambda: spread(surface, inner, none, means),
         "relaxed": lambda: relaxed(surface, inner, none, means),
-        "retreated": lambda: retreated(surface, inner, none, means, safe=surface.points),
+        "retreated": lambda: retreated(
+            inner, retreating(surface, none, means), means, safe=safe, times=none.astype(int)
+        ),
     }[kind]()
     assert (result == inner).all()
 
@@ -148,7 +161,7 @@ def test_beside_a_ridge_the_wall_is_nearly_as_thick_as_asked(ridged: CutSurface)
 
 
 def test_the_way_down_is_against_the_normal_where_the_surface_is_smooth(surface: CutSurface) -> None:
-    assert downward(surface, -1.5 * surface.normals) == pytest.approx(-1.5 * surface.normals)
+    assert downward(surface.points, surface.triangles, -1.5 * surface.normals) == pytest.approx(-1.5 * surface.normals)
 
 
 def test_the_way_down_goes_in_through_triangles_that_the_normal_leaves(surface: CutSurface) -> None:
@@ -157,7 +170,7 @@ def test_the_way_down_goes_in_through_triangles_that_the_normal_leaves(surface: 
     tangent = tangent - surface.points[number]
     tilted[number] = 0.1 * surface.normals[number] + tangent / np.linalg.norm(tangent)
     tilted[number] /= np.linalg.norm(tilted[number])
-    way = downward(surface, -tilted)
+    way = downward(surface.points, surface.triangles, -tilted)
     facets = surface.points[surface.triangles[(surface.triangles == number).any(axis=1)]]
     normals = np.cross(facets[:, 1] - facets[:, 0], facets[:, 2] - facets[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)

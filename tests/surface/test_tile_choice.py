@@ -28,6 +28,7 @@ WISH = TileWish(
     levels=None,
     cells="auto",
     neck=0.1,
+    clearance=0.05,
     resized=True,
     arc=0.5,
     seed=0,
@@ -87,6 +88,20 @@ def test_necks_that_no_division_has_ask_for_new_cells(cells: str, new: bool, ask
     assert (tiling.surface is not None) == new
     assert [kind for kind, _ in asked] == ["quads"] * new
     assert any("necks" in note for note in tiling.notes) == new
+
+
+@pytest.mark.parametrize(("cells", "new"), [("auto", True), ("as-is", False)])
+def test_cells_of_the_size_asked_for_without_room_for_the_clearance_ask_for_new_ones(
+    cells: str, new: bool, asked: list[tuple[Cells, int]]
+) -> None:
+    wish = replace(WISH, resized=False, neck=30.0, cells=cells)  # type: ignore[arg-type]
+    necks = coarse_necks(GROW(chosen(RING, wish).quads), arc=0.5)
+    assert not asked
+    few, many = np.quantile(necks, [0.05, 0.2])
+    assert chosen(RING, replace(wish, clearance=few)).surface is None
+    tiling = chosen(RING, replace(wish, clearance=many))
+    assert [kind for kind, _ in asked] == ["quads"] * new
+    assert any("clearance" in note for note in tiling.notes) == new
 
 
 CROWDED = replace(WISH, size=60.0, tile_size=4.0, neck=0.8, cage=False)
