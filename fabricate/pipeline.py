@@ -89,7 +89,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     """Make the two parts of one body."""
     pattern, solid, process = config.pattern, config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
-    wish, limit = _wish(config)
+    wish, limit = _wish(config, body)
     grow = partial(wide_duotone, tree=pattern.tree, seed=pattern.seed, arc=pattern.arc, neck=wish.neck)
     tiling = chosen_tiling(body.mesh, wish, grow=grow, progress=watch.tell, store=store)
     watch.begin("duotone")
@@ -160,15 +160,15 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
     )
 
 
-def _wish(config: Config) -> tuple[TileWish, tuple[str, ...]]:
-    """Return what the config asks of the tiles, and the sentence that says what bound their size, if it is free."""
+def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
+    """Return what is asked of a body's tiles, and the sentence that says what bound their size, if it is free."""
     source, pattern, prepare = config.source, config.pattern, config.prepare
     feature, clearance = PROCESSES[config.process.name].feature_min, config.solid.clearance
     wish = TileWish(
         size=source.size,
         tile_size=None if pattern.tile_size == "auto" else pattern.tile_size,
         levels=pattern.levels,
-        cells=prepare.cells,
+        cells="quads" if prepare.cells == "auto" and body.wrapped else prepare.cells,
         neck=NECK_MARGIN * (feature + clearance),
         clearance=clearance,
         resized=pattern.tile_size == "auto",

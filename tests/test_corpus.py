@@ -12,6 +12,7 @@ import pytest
 
 import fabricate as fab
 from fabricate import pipeline
+from fabricate.checks.report import Report
 from fabricate.cli import main
 from fabricate.config import load_config
 from fabricate.triangles.search_tree import SearchTree
@@ -28,19 +29,38 @@ GOOD = {
 }
 """Closed meshes, and a chord tolerance, mm, that keeps the tests short."""
 
+WRAPPED = ("selfx_2torus_test1.obj", "tiny_coords_regr.obj", "open_moebius_quads.obj")
+"""Meshes that only a new skin makes into bodies, and soon."""
+
 VERIFY = os.environ.get("FABRICATE_VERIFY")
 
 pytestmark = pytest.mark.skipif(not BAD, reason="FABRICATE_CORPUS names no folder with meshes in bad/ and good/")
 
 
-def config_for(mesh: Path, folder: Path, *, tile_size: float, tolerance: float) -> Path:
+def config_for(mesh: Path, folder: Path, *, tile_size: float, tolerance: float, repair: str = "gentle") -> Path:
     path = folder / "mesh.toml"
     path.write_text(
         f'[source]\npath = "{mesh.resolve()}"\nsize = "100 mm"\n'
+        f'[prepare]\nrepair = "{repair}"\ncomponents = "largest"\n'
         f'[pattern]\ntile_size = "{tile_size} mm"\n'
         f'[solid]\nthickness = "2 mm"\nclearance = "0.3 mm"\ntolerance = "{tolerance} mm"\n'
     )
     return path
+
+
+def assert_sound(report: Report, folder: Path) -> None:
+    """Walls and necks may be too small for a process: these meshes have details of all sizes.
+
+    Where fins are thinner than two walls, volumes add up less exactly than elsewhere.
+    """
+    of_the_process = (".wall", "pattern.neck", "fit.process_gap", "fit.whole")
+    assert [check.message for check in report.checks if check.failed and not check.code.endswith(of_the_process)] == []
+    if VERIFY:
+        judge = [VERIFY, *(str(folder / f"{part}.stl") for part in ("yellow", "blue"))]
+        verdict = subprocess.run(
+            [sys.executable, *judge, "--clearance", "0.3"], capture_output=True, text=True, check=False
+        )
+        assert verdict.stdout.rstrip().endswith("holds"), verdict.stdout
 
 
 @pytest.mark.slow
@@ -60,26 +80,27 @@ def test_a_broken_mesh_ends_in_one_line(mesh: Path, tmp_path: Path, capsys: pyte
 
 @pytest.mark.slow
 @pytest.mark.timeout(400)
+@pytest.mark.parametrize("name", WRAPPED)
+def test_what_is_wrapped_makes_a_sound_pair(name: str, tmp_path: Path) -> None:
+    pytest.importorskip("pymeshlab")
+    path = config_for(CORPUS / "bad" / name, tmp_path, tile_size=7, tolerance=0.05, repair="wrap")
+    (report,) = pipeline.run(load_config(path), name="mesh", out=tmp_path / "out", progress=lambda _: None)
+    assert_sound(report, tmp_path / "out" / "mesh")
+    assert report.mesh is not None
+    assert report.mesh.repairs["surfaces wrapped"] == 1
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(400)
 @pytest.mark.parametrize("name", GOOD)
 def test_a_closed_mesh_makes_a_sound_pair(name: str, tmp_path: Path) -> None:
-    """Walls and necks may be too small for a process: these meshes have details of all sizes.
-
-    Where fins are thinner than two walls, volumes add up less exactly than elsewhere.
-    """
     path = config_for(CORPUS / "good" / name, tmp_path, tile_size=7, tolerance=GOOD[name])
     (report,) = pipeline.run(load_config(path), name="mesh", out=tmp_path / "out", progress=lambda _: None)
-    of_the_process = (".wall", "pattern.neck", "fit.process_gap", "fit.whole")
-    assert [check.message for check in report.checks if check.failed and not check.code.endswith(of_the_process)] == []
+    assert_sound(report, tmp_path / "out" / "mesh")
     assert report.mesh is not None
     assert report.pattern is not None
     assert (report.pattern.curves, report.pattern.regions) == (1, 2)
     assert report.pattern.handles.yellow + report.pattern.handles.blue == report.mesh.genus
-    if VERIFY:
-        judge = [VERIFY, *(str(tmp_path / "out" / "mesh" / f"{part}.stl") for part in ("yellow", "blue"))]
-        verdict = subprocess.run(
-            [sys.executable, *judge, "--clearance", "0.3"], capture_output=True, text=True, check=False
-        )
-        assert verdict.stdout.rstrip().endswith("holds"), verdict.stdout
 
 
 @pytest.mark.slow

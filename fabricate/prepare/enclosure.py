@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fabricate.mesh.closed import check_closed_manifold
+from fabricate.mesh.closed import check_closed_manifold, signed_volume
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.capping import lids
 from fabricate.prepare.ear_clipping import ear_clipped
@@ -18,8 +18,11 @@ OFFSET = 0.002
 """Distance of the wrap from a body, as a share of the diagonal: 0.3 mm on a diagonal of 150 mm, about a layer.
 A smaller one takes longer and fills creases with small triangles."""
 
-SHEET_OFFSET = 0.015
-"""The same for sheets, which become twice as thick: 4.5 mm on a diagonal of 150 mm, two walls of 2 mm and a gap."""
+SHEET_OFFSET = 0.02
+"""The same for sheets, which become twice as thick: 6 mm on a diagonal of 150 mm, enough for two walls and a gap."""
+
+SHEET_ALPHA = 2 * SHEET_OFFSET
+"""Gaps between sheets that are narrower than these are thick are bridged."""
 
 FINEST, COARSEST = 0.01, 0.02
 """Bounds of alpha. Gaps narrower than 1 % of the diagonal are bridged: no tool of a duotone's size gets into them."""
@@ -53,8 +56,8 @@ def enclosed(mesh: PolygonMesh) -> Repaired:
     points, covers, closed = lids(bare)
     whole, alpha = np.concatenate([triangles, covers]), _alpha(bare)
     wrap = wrapped(points, whole, alpha=alpha, offset=OFFSET)
-    if _share_thinner(wrap, SHEET * OFFSET) > SHEETS:
-        wrap = wrapped(points, whole, alpha=alpha, offset=SHEET_OFFSET)
+    if _share_of_sheets(wrap) > SHEETS:
+        wrap = wrapped(points, whole, alpha=SHEET_ALPHA, offset=SHEET_OFFSET)
     check_closed_manifold(wrap)
     done = (Action("holes closed by lids", closed), Action("surfaces wrapped", 1))
     return Repaired(wrap.moved(box.restored(wrap.points)), tuple(action for action in done if action.count))
@@ -65,11 +68,18 @@ def _alpha(mesh: PolygonMesh) -> float:
     return float(np.clip(np.sqrt(_DENSITY * 2 * _area(mesh) / MOST_TRIANGLES), FINEST, COARSEST))
 
 
-def _share_thinner(mesh: PolygonMesh, thickness: float) -> float:
-    """Return the share of a closed surface of triangles behind which the body is less thick."""
-    triangles = mesh.corners.reshape(-1, 3)
-    areas = np.linalg.norm(area_vectors(mesh.points, triangles), axis=1)
-    thin = thicknesses(mesh.points, triangles) < thickness
+def is_sheet(body: PolygonMesh) -> bool:
+    """Tell whether a plate with a closed body's volume and area is hardly thicker than the skin round a sheet."""
+    diagonal = float(np.linalg.norm(np.ptp(body.points, axis=0)))
+    areas = np.linalg.norm(area_vectors(body.points, ear_clipped(body).triangles), axis=1) / 2
+    return 2 * abs(signed_volume(body)) < SHEET * OFFSET * diagonal * float(areas.sum())
+
+
+def _share_of_sheets(wrap: PolygonMesh) -> float:
+    """Return the share of a wrap, in the unit box, behind which it is hardly thicker than the skin round a sheet."""
+    triangles = wrap.corners.reshape(-1, 3)
+    areas = np.linalg.norm(area_vectors(wrap.points, triangles), axis=1)
+    thin = thicknesses(wrap.points, triangles) < SHEET * OFFSET
     return float(areas[thin].sum() / areas.sum())
 
 

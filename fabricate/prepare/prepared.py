@@ -31,6 +31,11 @@ class Prepared:
     actions: tuple[Action, ...]
     notes: tuple[str, ...]
 
+    @property
+    def wrapped(self) -> bool:
+        """Whether the body is a new skin, whose faces nobody laid out."""
+        return _wrapped(self.actions)
+
 
 def prepared(
     mesh: PolygonMesh,
@@ -58,7 +63,11 @@ def prepared(
 
 def _wrapping(actions: tuple[Action, ...], bodies: list[PolygonMesh]) -> tuple[str, ...]:
     """Say what wrapping made of the topology: the input had none that could be kept."""
-    if not any(action.name == "surfaces wrapped" for action in actions):
+    if not _wrapped(actions):
         return ()
     handles = sum(genus(body) for body in bodies)
     return (f"the input was wrapped in a new skin, and that has genus {handles}, whatever the input had",)
+
+
+def _wrapped(actions: tuple[Action, ...]) -> bool:
+    return any(action.name == "surfaces wrapped" for action in actions)

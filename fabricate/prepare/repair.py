@@ -12,7 +12,7 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.components import split
 from fabricate.prepare.crossing_pairs import crossings
 from fabricate.prepare.ear_clipping import ear_clipped
-from fabricate.prepare.enclosure import enclosed
+from fabricate.prepare.enclosure import enclosed, is_sheet
 from fabricate.prepare.gentle import gently_repaired
 from fabricate.prepare.repaired import Action, Repaired
 from fabricate.prepare.store import NOTHING_KEPT, Kept, Store
@@ -26,9 +26,9 @@ def repaired(mesh: PolygonMesh, *, policy: RepairPolicy, store: Store = NOTHING_
     """Return a mesh whose components are closed, consistently wound 2-manifolds with volume.
 
     "none" takes the mesh as it is; "gentle" mends connections and winding without moving a point (see
-    `gently_repaired`). "wrap" does that, too, and if components are left that are not closed or cross each
-    other or themselves, puts an alpha wrap round everything (see `enclosed`), which is a new surface and is
-    kept in the store.
+    `gently_repaired`). "wrap" does that, too, and if components are left that are not closed, cross each other or
+    themselves, or are as thin as sheets, puts an alpha wrap round everything (see `enclosed`), which is a new surface
+    and is kept in the store.
 
     Raises
     ------
@@ -72,8 +72,12 @@ def _fault(mesh: PolygonMesh) -> str:
 
 
 def _is_sound(mesh: PolygonMesh) -> bool:
-    """Return whether all components are closed, with volume, and no two triangles cross."""
-    return not _fault(mesh) and not _crosses(mesh)
+    """Return whether all components are closed, with volume, not all mere sheets, and no two triangles cross."""
+    return not _fault(mesh) and not _crosses(mesh) and not _is_sheets(mesh)
+
+
+def _is_sheets(mesh: PolygonMesh) -> bool:
+    return all(is_sheet(part) for part in split(mesh))
 
 
 def _crosses(mesh: PolygonMesh) -> bool:

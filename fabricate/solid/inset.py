@@ -44,8 +44,9 @@ LEAST_STEEP = 0.3
 TILES, SLIDES = 1, 36
 """How far around a fault points slide, in tiles, and how often in a round."""
 
-RETREAT = 0.4
-"""Share of the way back to a safe depth that points near a stubborn fault move in a round, times how often they did."""
+RETREAT, HURRY = 0.4, 3
+"""Share of the way back to a safe depth that points near a stubborn fault move in a round; it grows from when they have
+had to more often than so many times."""
 
 SAFE_DEPTH = 0.002
 """The safe depth, as a share of the thickness: straight in, and so little that a surface that is embedded stays so."""
@@ -95,6 +96,12 @@ def straight_down(points: Floats, triangles: Indices) -> Floats:
     return downward(points, triangles, -mean_normals(points, triangles))
 
 
+def ways_through(surface: CutSurface, ways: Floats) -> Floats:
+    """Return how far it is from each point along its way, (n, 3), to where that leaves the body, (n,) mm."""
+    inward = unit(ways)
+    return first_hits(surface.points, surface.triangles, surface.points + START * inward, inward).distance
+
+
 def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float, between: float) -> Floats:
     """Return the depth of each inner point, (n,) mm: the thickness, less where the body is thin.
 
@@ -102,9 +109,7 @@ def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float, between
     the way through the body is shorter than two walls and `between`, the two inner
     surfaces keep `between` mm from each other. The depth changes gently from point to point.
     """
-    inward = unit(ways)
-    hits = first_hits(surface.points, surface.triangles, surface.points + START * inward, inward)
-    through = hits.distance / np.linalg.norm(ways, axis=1)
+    through = ways_through(surface, ways) / np.linalg.norm(ways, axis=1)
     depth: Floats = np.clip((through - between) / 2.0, 0.1 * thickness, thickness)
     if (depth < thickness).any():
         ends = undirected_edges(surface.triangles)
@@ -166,5 +171,5 @@ def retreated(inner: Floats, around: Mask, means: csr_array, *, safe: Floats, ti
     weight = around.astype(np.float64)
     for _ in range(RINGS):
         weight = np.maximum(weight, means @ weight)
-    share = np.minimum(RETREAT * np.maximum(times, 1), 1.0)
+    share = np.minimum(RETREAT * np.maximum(times / HURRY, 1.0), 1.0)
     return inner + (share * weight)[:, None] * (safe - inner)

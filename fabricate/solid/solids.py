@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fabricate.arrays import Mask
+from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.clearance import check_necks
@@ -19,15 +19,16 @@ from fabricate.solid.inset import (
     spread,
     straight_down,
     ways_in,
+    ways_through,
 )
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 
-RETREAT_FROM, ALL_ROUNDS = 4, 60
+RETREAT_FROM, ALL_ROUNDS = 4, 80
 """Round from which stubborn places retreat, and rounds in all; the checks report what is left."""
 
-PATIENCE = 12
+PATIENCE = 20
 """Rounds of retreat in which nothing gets better, before the rest is left as it is."""
 
 CORE_WEB = 0.8
@@ -42,13 +43,14 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     Raises
     ------
     SolidError
-        If the thickness is not positive, the clearance is negative or as wide as the necks, or the surface
-        crosses itself.
+        If the thickness is not positive, the clearance is negative or as wide as the necks or as most of the body is
+        thick, or the surface crosses itself.
     """
     _check_sizes(surface, thickness, clearance)
     _check_embedded(surface)
     between = 1.1 * clearance if core == "hollow" else 2.0 * clearance + CORE_WEB
     down = downward(surface.points, surface.triangles, ways_in(surface, thickness=thickness))
+    _check_thick(surface, down, clearance)
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
     safe = surface.points + SAFE_DEPTH * thickness * straight_down(surface.points, surface.triangles)
@@ -99,6 +101,16 @@ def _check_sizes(surface: CutSurface, thickness: float, clearance: float) -> Non
     if not clearance >= 0.0:
         raise SolidError(f"the clearance must not be negative, found {clearance:g} mm")
     check_necks(surface, clearance=clearance)
+
+
+def _check_thick(surface: CutSurface, down: Floats, clearance: float) -> None:
+    typical = float(np.median(ways_through(surface, down)))
+    if typical < clearance:
+        raise SolidError(
+            f"half of the body is no more than {typical:.2g} mm thick, and the clearance is {clearance:g} mm: that is "
+            "no body to make walls of; ask for a larger source.size or a smaller solid.clearance, or thicken the mesh, "
+            'as prepare.repair = "wrap" does with sheets'
+        )
 
 
 def _check_embedded(surface: CutSurface) -> None:

@@ -8,7 +8,7 @@ from fabricate.errors import MeshError
 from fabricate.mesh.closed import check_closed_manifold, checked_closed, genus, signed_volume
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.torus import torus
-from fabricate.prepare.enclosure import OFFSET, SHEET_OFFSET, enclosed
+from fabricate.prepare.enclosure import OFFSET, SHEET_OFFSET, enclosed, is_sheet
 from fabricate.prepare.repaired import Action
 
 pytest.importorskip("pymeshlab")
@@ -38,6 +38,21 @@ def test_a_sheet_gets_thickness() -> None:
     square = PolygonMesh.from_faces([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
     found = checked_closed(enclosed(square).mesh)
     assert np.ptp(found.points[:, 2]) == pytest.approx(2 * SHEET_OFFSET * np.sqrt(2), rel=0.05)
+
+
+def test_a_body_with_a_sheet_is_wrapped_as_sheets_are() -> None:
+    sail = PolygonMesh.from_faces([[0, 0, 0], [0, 2.5, 0], [0, 2.5, 2], [0, 0, 2]], [[0, 1, 2, 3]])
+    found = checked_closed(enclosed(united(box(), sail)).mesh)
+    x, y, z = found.points.T
+    on_sail = (y > 0.8) & (y < 2.3) & (z > 0.8) & (z < 1.8)
+    assert np.ptp(x[on_sail]) == pytest.approx(2 * SHEET_OFFSET * np.linalg.norm([1, 3, 2.5]), rel=0.1)
+
+
+@pytest.mark.parametrize(("thickness", "sheet"), [(0.004, True), (0.05, False)])
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_a_closed_plate_is_a_sheet_when_it_is_thin_for_its_size(thickness: float, scale: float, sheet: bool) -> None:
+    plate = box().moved(box().points * [scale, scale, thickness * scale])
+    assert is_sheet(plate) == sheet
 
 
 def test_a_moebius_strip_becomes_a_ring() -> None:

@@ -14,7 +14,7 @@ from fabricate.prepare.prepared import prepared
 def test_a_sound_mesh_comes_back_as_it_is() -> None:
     (body,) = prepared(RING, repair="none", components="only", crease=None)
     assert body.mesh is RING
-    assert (body.actions, body.notes) == ((), ())
+    assert (body.actions, body.notes, body.wrapped) == ((), (), False)
 
 
 def test_a_flipped_face_is_turned_and_counted() -> None:
@@ -35,6 +35,7 @@ def test_a_wrap_closes_it_and_says_so() -> None:
     assert genus(checked_closed(body.mesh)) == 1
     assert signed_volume(body.mesh) == pytest.approx(signed_volume(RING), rel=0.1)
     assert any("new skin" in note for note in body.notes)
+    assert body.wrapped
 
 
 @pytest.mark.parametrize(("policy", "count"), [("largest", 1), ("each", 2)])

@@ -17,6 +17,7 @@ from fabricate.mesh.closed import checked_closed
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.components import components
 from fabricate.prepare.ear_clipping import ear_clipped
+from fabricate.prepare.enclosure import is_sheet
 from fabricate.prepare.repair import RepairPolicy, repaired
 from fabricate.triangles.crossing import crossing_triangles
 
@@ -34,7 +35,8 @@ def flat() -> PolygonMesh:
 @given(surfaces())
 @pytest.mark.parametrize("policy", ["none", "gentle", "wrap"])
 def test_a_clean_mesh_passes_as_it_is(policy: RepairPolicy, mesh: PolygonMesh) -> None:
-    if policy != "wrap" or not len(crossing_triangles(mesh.points, ear_clipped(mesh).triangles)):
+    crossing = len(crossing_triangles(mesh.points, ear_clipped(mesh).triangles))
+    if policy != "wrap" or not (crossing or is_sheet(mesh)):
         assert repaired(mesh, policy=policy).mesh is mesh
 
 
@@ -77,6 +79,9 @@ def test_wrap_is_only_put_on_what_needs_it() -> None:
     crossing = united(box(), box(at=(0.5, 0.4, 0.3)))
     assert repaired(crossing, policy="gentle").mesh is crossing
     assert repaired(crossing, policy="wrap").actions[-1].name == "surfaces wrapped"
+    plate = box().moved(box().points * [1.0, 1.0, 0.003])
+    assert repaired(plate, policy="gentle").mesh is plate
+    assert repaired(plate, policy="wrap").actions[-1].name == "surfaces wrapped"
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import tetrahedron
 
-from fabricate.prepare.thinnest import thinnest_place
+from fabricate.prepare.thinnest import thicknesses, thinnest_place
 
 
 @given(st.floats(-6, 6), st.floats(0.01, 0.9), st.integers(0, 2))
@@ -25,6 +25,12 @@ def test_a_plate_is_as_thin_as_it_is(size: float, thin: float, axis: int) -> Non
 
 def test_a_tetrahedron_has_no_opposite_faces() -> None:
     assert thinnest_place(tetrahedron().points, triangles(tetrahedron())) is None
+
+
+def test_every_triangle_of_a_plate_knows_its_thickness() -> None:
+    plate = box().moved(box().points * [4.0, 3.0, 0.5])
+    found = thicknesses(plate.points, triangles(plate))
+    assert np.sort(found) == pytest.approx(np.sort([0.5, 3.0, 4.0] * 4), rel=1e-4)
 
 
 def test_triangles_without_area_send_no_ray() -> None:

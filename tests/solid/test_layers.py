@@ -8,7 +8,7 @@ import pytest
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import assembly
-from fabricate.solid.layers import Layer, flipped, layer, layer_shares, shares_near, wall
+from fabricate.solid.layers import NEAR, Layer, flipped, hugging, layer, layer_shares, shares_near, wall
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -106,3 +106,21 @@ def test_hardly_under_the_surface_nothing_crosses(surface: CutSurface) -> None:
     """A hundredth of a millimetre down the facing parts are two skins that nowhere cut through each other."""
     made = assembly(surface, surface.points - 0.01 * surface.normals, clearance=0.5, core="hollow")
     assert len(crossing_triangles(made.points, np.concatenate([made.yellow, made.blue]))) == 0
+
+
+def test_hardly_under_another_a_layer_hugs_its_copies_and_deeper_it_is_itself(surface: CutSurface) -> None:
+    upper = apart_by(surface, np.full(len(surface.curve), 0.5))
+    lower = Layer(upper.yellow - surface.normals, upper.blue - surface.normals)
+    deep, close = (np.full(len(surface.points), depth) for depth in (2.0 * NEAR, 0.5 * NEAR))
+    assert hugging(surface, upper, lower, depth=deep) is lower
+    hugged = hugging(surface, upper, lower, depth=close)
+    for above, below, own in (
+        (upper.yellow, hugged.yellow, surface.yellow),
+        (upper.blue, hugged.blue, ~surface.yellow),
+    ):
+        triangles = surface.triangles[own]
+        numbers = np.unique(triangles)
+        assert np.linalg.norm(below - above, axis=1)[numbers] == pytest.approx(0.5 * NEAR)
+        corners = above[triangles]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        assert (np.einsum("ij,ikj->ik", normals, (below - above)[triangles]) < 0).all()

@@ -241,6 +241,16 @@ def test_a_body_far_thinner_than_two_walls_still_has_parts_that_do_not_cross(sha
     assert len(crossing_triangles(made.points, np.concatenate([made.yellow, made.blue]))) == 0
 
 
+def test_a_body_thinner_than_the_clearance_is_refused() -> None:
+    mesh = sphere(faces="triangles", frequency=2)
+    flat = sized(mesh.moved(mesh.points * [1.0, 1.0, 0.005]), size=60)
+    surface = fitted_cut(grown_duotone(tiled(flat, tile_size=6), tree="random", seed=1), tolerance=0.3)
+    with pytest.raises(SolidError, match=r"half of the body is no more than 0\.\d+ mm thick") as caught:
+        solids(surface, thickness=2.0, clearance=0.4)
+    assert "\n" not in str(caught.value)
+    solids(surface, thickness=2.0, clearance=0.05)
+
+
 def test_plain_offset_would_have_crossed() -> None:
     """The frame of the test above needs mending: straight down by the thickness folds."""
     mesh = sized(double_torus(hole=0.8, depth=0.3), size=60)

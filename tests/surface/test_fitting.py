@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
@@ -98,3 +100,18 @@ def test_a_limit_that_crosses_itself_is_undone_or_refused() -> None:
         assert "crosses itself" in str(error)  # noqa: PT017
     else:
         assert len(crossing_triangles(made.points, made.triangles)) == 0
+
+
+def test_a_limit_that_crosses_itself_where_it_misses_its_target_is_drawn_out_of_itself() -> None:
+    """A cage pulled through itself at one point, on a target that is not: nothing is lost by untangling."""
+    mesh, onto = CASES["torus"]
+    quads = subdivided(mesh, levels=1)
+    points = quads.points.copy()
+    points[np.argmax(points[:, 2])] -= [0.0, 0.0, 26.0]
+    pulled = replace(quads, points=points)
+    tangled = surface_of(pulled)
+    assert len(crossing_triangles(tangled.points, tangled.triangles)) > 0
+    made = fitted_to(pulled, onto)
+    surface = surface_of(made)
+    assert len(crossing_triangles(surface.points, surface.triangles)) == 0
+    assert off(made, onto).max < 0.03 * float(np.linalg.norm(onto.extents))

@@ -7,6 +7,7 @@ import pytest
 from crowding import crowded_torus, roomy_torus
 
 from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.errors import SolidError
 from fabricate.mesh.torus import torus
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.surface.deviation import deviation
@@ -51,6 +52,22 @@ def test_narrow_tiles_grow_until_they_are_wide_enough(crowded: QuadMesh) -> None
 
 def test_a_roomy_tiling_stays_as_it_is(roomy: QuadMesh) -> None:
     assert widened(roomy, RING, arc=0.5, neck=0.5) is roomy
+
+
+def test_a_tiling_with_too_many_narrow_tiles_stays_as_it_is(crowded: QuadMesh, monkeypatch: pytest.MonkeyPatch) -> None:
+    goal = 0.5 * float(np.median(necks(crowded)))
+    narrow = float((necks(crowded) < goal).mean())
+    monkeypatch.setattr("fabricate.surface.widening.MOST_NARROW", 0.9 * narrow)
+    assert widened(crowded, RING, arc=0.5, neck=goal) is crowded
+
+
+def test_slides_that_tangle_the_surface_are_given_up(crowded: QuadMesh, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*_: object) -> QuadMesh:
+        raise SolidError("the smooth surface crosses itself")
+
+    monkeypatch.setattr("fabricate.surface.widening.fitted", refused)
+    goal = 0.5 * float(np.median(necks(crowded)))
+    assert widened(crowded, RING, arc=0.5, neck=goal) is crowded
 
 
 def test_what_cannot_be_had_is_not_asked_for(roomy: QuadMesh) -> None:
