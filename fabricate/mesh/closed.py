@@ -14,8 +14,8 @@ from fabricate.mesh.winding import fewest_flips, flipped
 SMALLEST_VOLUME = 1e-12
 """A volume below this share of the cube of the bounding box's diagonal is none: rounding makes as much."""
 
-LARGEST_COORDINATE = 1e30
-"""Beyond any sculpture, and safely within the float32 numbers of an STL file, which end at 3.4e38."""
+LARGEST_COORDINATE = 1e45
+"""Beyond what float32 holds, and so small that squares of areas and cubes of lengths are finite."""
 
 
 def checked_closed(mesh: PolygonMesh) -> PolygonMesh:

@@ -66,4 +66,6 @@ def _cells(body: PolygonMesh) -> str:
     asked = f"for tiles of {TILE_SIZE:g} mm on a body of {SIZE:g} mm"
     if too_fine(body, size=SIZE, tile_size=TILE_SIZE):
         return f"run would make new quads {asked}: its {len(body.offsets) - 1} triangles are too fine"
-    return f"run would divide its own {len(body.offsets) - 1} faces {asked}"
+    return (
+        f"run would divide its own {len(body.offsets) - 1} faces {asked}, or make new quads if a gap has no room there"
+    )
