@@ -146,7 +146,8 @@ def glb_bytes(document: dict[str, Any], binary: bytes, *, version: int = 2) -> b
 
 
 def coordinates(points: list[str], kind: str) -> np.ndarray:
-    return np.array([point.split() for point in points], dtype=float).astype(kind).reshape(-1, 3)
+    with np.errstate(over="ignore"):  # what a file cannot hold becomes infinite in it
+        return np.array([point.split() for point in points], dtype=float).astype(kind).reshape(-1, 3)
 
 
 TEXTS: list[Writer] = [obj, off, ply, stl]
