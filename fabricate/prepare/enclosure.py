@@ -14,6 +14,9 @@ from fabricate.prepare.unit_box import UnitBox
 from fabricate.prepare.wrap import finite_triangles, from_triangles, wrapped
 from fabricate.triangles.normals import area_vectors
 
+WRAPPED = "surfaces wrapped"
+"""Name of what is done, by which others tell that the surface is a new one."""
+
 OFFSET = 0.002
 """Distance of the wrap from a body, as a share of the diagonal: 0.3 mm on a diagonal of 150 mm, about a layer.
 A smaller one takes longer and fills creases with small triangles."""
@@ -59,7 +62,7 @@ def enclosed(mesh: PolygonMesh) -> Repaired:
     if _share_of_sheets(wrap) > SHEETS:
         wrap = wrapped(points, whole, alpha=SHEET_ALPHA, offset=SHEET_OFFSET)
     check_closed_manifold(wrap)
-    done = (Action("holes closed by lids", closed), Action("surfaces wrapped", 1))
+    done = (Action("holes closed by lids", closed), Action(WRAPPED, 1))
     return Repaired(wrap.moved(box.restored(wrap.points)), tuple(action for action in done if action.count))
 
 

@@ -8,6 +8,7 @@ from fabricate.mesh.closed import checked_closed, genus
 from fabricate.mesh.crease import creased, fanned_corners
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.components import ComponentPolicy, chosen
+from fabricate.prepare.enclosure import WRAPPED
 from fabricate.prepare.repair import RepairPolicy, repaired
 from fabricate.prepare.repaired import Action
 from fabricate.prepare.store import NOTHING_KEPT, Store
@@ -70,4 +71,4 @@ def _wrapping(actions: tuple[Action, ...], bodies: list[PolygonMesh]) -> tuple[s
 
 
 def _wrapped(actions: tuple[Action, ...]) -> bool:
-    return any(action.name == "surfaces wrapped" for action in actions)
+    return any(action.name == WRAPPED for action in actions)
