@@ -302,8 +302,11 @@ def test_every_config_makes_a_sound_pair(path: Path, tmp_path: Path) -> None:
     assert not failed(report, with_printability=False)
     assert report.pattern is not None
     assert (report.pattern.curves, report.pattern.regions) == (1, 2)
+    config = load_config(path)
+    if config.prepare.cells in ("quads", "triangles", "hexagons"):
+        assert report.pattern.tile_size_mm == pytest.approx(config.pattern.tile_size, rel=0.15)
     if JUDGE:
-        folder, clearance = tmp_path / path.stem, load_config(path).solid.clearance
+        folder, clearance = tmp_path / path.stem, config.solid.clearance
         parts = [str(folder / f"{name}.stl") for name in ("yellow", "blue")]
         sizes = ["--clearance", str(clearance)] if clearance else []
         judged = subprocess.run([sys.executable, JUDGE, *parts, *sizes], capture_output=True, text=True, check=False)

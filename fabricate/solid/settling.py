@@ -62,7 +62,7 @@ def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) 
         if tight.mean() > MOST_TIGHT:
             raise SolidError(
                 f"a clearance of {clearance:g} mm does not fit into {int(tight.sum())} of {len(tight)} tiles; "
-                "ask for a smaller solid.clearance, or divide a mesh with larger faces"
+                "ask for a smaller solid.clearance or a larger pattern.tile_size, or divide a mesh with larger faces"
             )
         fewest, waited = min(fewest, int(tight.sum())), waited + 1 if tight.sum() >= fewest else 0
         if not tight.any() or waited == PATIENCE:

@@ -303,6 +303,14 @@ def test_points_that_all_coincide_have_no_volume() -> None:
         checked_closed(PolygonMesh.from_faces(np.ones((4, 3)), TETRAHEDRON_FACES))
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("size", [3.4e38, 1e45])
+def test_coordinates_that_float32_cannot_hold_are_taken(size: float) -> None:
+    huge = cube().scaled(size / float(np.abs(cube().points).max()))
+    assert checked_closed(huge) is huge
+    assert signed_volume(huge) == pytest.approx(float(np.ptp(huge.points[:, 0])) ** 3)
+
+
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e46])
 def test_unusable_coordinate_is_shown_with_its_point(value: float) -> None:
     points = CUBE_POINTS.copy()
