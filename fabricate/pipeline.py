@@ -14,6 +14,8 @@ from fabricate.checks.measured import expectations, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Report, report_json
 from fabricate.config import Config, FileConfig, SphereConfig, config_sha256, moved_config, resolved_toml
+from fabricate.design.curve_wish import CurveWish
+from fabricate.design.designed import designed, grown
 from fabricate.duotone.certificate import certified
 from fabricate.duotone.duotone import Duotone
 from fabricate.errors import MeshError
@@ -35,7 +37,6 @@ from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.tile_choice import TileWish, chosen_tiling
 from fabricate.surface.tiling import Tiling
-from fabricate.surface.wide_tree import wide_duotone
 from fabricate.versions import installed_version
 
 LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf", "pymeshlab", "pyquadriflow")
@@ -87,13 +88,13 @@ def _bodies(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, 
 
 def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _Stopwatch, store: Store) -> Report:
     """Make the two parts of one body."""
-    pattern, solid, process = config.pattern, config.solid, PROCESSES[config.process.name]
+    solid, process = config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
     wish, limit = _wish(config, body)
-    grow = partial(wide_duotone, tree=pattern.tree, seed=pattern.seed, arc=pattern.arc, neck=wish.neck)
-    tiling = chosen_tiling(body.mesh, wish, grow=grow, progress=watch.tell, store=store)
+    curve = _curve_wish(config, neck=wish.neck)
+    tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=curve), progress=watch.tell, store=store)
     watch.begin("duotone")
-    duotone = grow(tiling.quads)
+    duotone = designed(tiling.quads, curve).duotone
     certificate = certified(duotone)
     watch.begin("cut")
     surface = _surface(duotone, tiling, config)
@@ -181,6 +182,11 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         return wish, ()
     finest = finest_tile(feature, clearance, extent=source.size, arc=pattern.arc)
     return replace(wish, tile_size=finest.tile_size), (finest.limit,)
+
+
+def _curve_wish(config: Config, *, neck: float) -> CurveWish:
+    pattern = config.pattern
+    return CurveWish(tree=pattern.tree, seed=pattern.seed, root=pattern.root, arc=pattern.arc, neck=neck)
 
 
 def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:

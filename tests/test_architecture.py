@@ -21,6 +21,7 @@ ROWS = [
     {"prepare"},
     {"duotone"},
     {"surface"},
+    {"design"},
     {"solid"},
     {"checks"},
     {"picture"},

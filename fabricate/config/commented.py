@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 import tomli_w
 from pydantic import BaseModel
@@ -63,13 +63,22 @@ def _entries(model: type[BaseModel], *, skip: Collection[str] = (), used: bool =
 def _entry(key: str, field: FieldInfo, default: object, *, used: bool) -> tuple[str, str]:
     """Return a line that says what a key means, and one that sets it and says what else it takes."""
     shown = next(iter(field.examples or ())) if default is None else default
-    setting = tomli_w.dumps({key: shown}).rstrip()
-    note = "" if default is None else f"; default {setting.partition(' = ')[2]}"
+    value = _inline(shown)
+    note = "" if default is None else f"; default {value}"
     if key in PROCESS_DEFAULTS:
         used = False
         note = "; default: " + ", ".join(f"{name} {_default(name, key)}" for name in PROCESSES)
     switch = "" if used and default is not None else "#"
-    return f"# {field.description}", f"{switch}{setting}  # {expectation(field)}{note}"
+    return f"# {field.description}", f"{switch}{key} = {value}  # {expectation(field)}{note}"
+
+
+def _inline(value: object) -> str:
+    """Return a value as TOML has it on one line."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_inline(each)}" for key, each in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_inline, value)) + "]"
+    return tomli_w.dumps({"value": value}).rstrip().partition(" = ")[2]
 
 
 def _default(process: str, key: str) -> str:

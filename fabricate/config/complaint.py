@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from fabricate.config.expectation import expectation
 from fabricate.config.keys import SECTIONS, keys_of, nearest_key
+from fabricate.config.section import Section
 from fabricate.config.source_config import SHAPES
 
 _RANK = {"extra_forbidden": 0, "literal_error": 2}
@@ -25,6 +27,14 @@ class Complaint(NamedTuple):
     sentence: str
 
 
+class _Place(NamedTuple):
+    """Where a mistake is within a section: the dotted key, its last part, and the model whose key that is."""
+
+    dotted: str
+    key: str
+    model: type[BaseModel]
+
+
 def first_complaint(error: ValidationError, document: Mapping[str, Any]) -> Complaint:
     """Return the first mistake in a document; unknown keys come before missing ones."""
     details = min(error.errors(include_url=False), key=lambda each: _RANK.get(each["type"], 1))
@@ -36,8 +46,39 @@ def first_complaint(error: ValidationError, document: Mapping[str, Any]) -> Comp
     # Inside [source] the location also names the member of the union.
     models = {model.__name__: model for model in SECTIONS[section]}
     model = models[inner[0]] if section == "source" else SECTIONS[section][0]
-    key = inner[1 if section == "source" and len(inner) > 1 else 0]  # what follows names a member of a union, too
-    return Complaint(f"{section}.{key}", _wrong_key(section, key, model, details))
+    place = _innermost(model, inner[1:] if section == "source" and len(inner) > 1 else inner)
+    return Complaint(f"{section}.{place.dotted}", _wrong_key(section, place, details))
+
+
+def _innermost(model: type[BaseModel], steps: Sequence[str]) -> _Place:
+    """Follow a location through tables within tables, numbers of list entries, and names of members of unions."""
+    place, tables = _Place(steps[0], steps[0], model), _tables(model.model_fields.get(steps[0]))
+    entered = _only(tables)
+    for step in steps[1:]:
+        if step.isdecimal():
+            place = place._replace(dotted=f"{place.dotted}[{step}]")
+        elif step in tables:
+            entered = tables[step]
+        elif entered is not None and step.isidentifier():
+            place, tables = _Place(f"{place.dotted}.{step}", step, entered), _tables(entered.model_fields.get(step))
+            entered = _only(tables)
+    return place
+
+
+def _tables(field: FieldInfo | None) -> dict[str, type[Section]]:
+    """Return the models that a field's value may be, or hold, by their names."""
+    left: list[object] = [] if field is None else [field.annotation]
+    found = {}
+    while left:
+        each = left.pop()
+        if isinstance(each, type) and issubclass(each, Section):
+            found[each.__name__] = each
+        left += get_args(each)
+    return found
+
+
+def _only(tables: Mapping[str, type[Section]]) -> type[Section] | None:
+    return next(iter(tables.values())) if len(tables) == 1 else None
 
 
 def _wrong_section(section: str, document: Mapping[str, Any]) -> Complaint:
@@ -58,13 +99,18 @@ def _wrong_section(section: str, document: Mapping[str, Any]) -> Complaint:
     return Complaint(section, 'expected shape = "..." or path = "...", found neither')
 
 
-def _wrong_key(section: str, key: str, model: type[BaseModel], details: ErrorDetails) -> str:
+def _wrong_key(section: str, place: _Place, details: ErrorDetails) -> str:
+    key, model = place.key, place.model
     if details["type"] == "extra_forbidden":
+        if model not in SECTIONS[section]:
+            return f"unknown key{nearest_key(key, {name: name for name in model.model_fields})}"
         known = keys_of(section)
         return _foreign_key(key, model) if key in known else f"unknown key{nearest_key(key, known)}"
     if details["type"] == "value_error":
         return str(details["ctx"]["error"])
     field = model.model_fields[key]
+    if details["type"] == "missing":
+        return f"expected {expectation(field)}, found nothing"
     choices = get_args(field.annotation) if get_origin(field.annotation) is Literal else ()
     return f"expected {expectation(field)}, found {_found(details['input'], choices)}"
 

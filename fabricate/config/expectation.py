@@ -8,6 +8,8 @@ from typing import Literal, get_args, get_origin
 from pydantic import BeforeValidator, PlainSerializer
 from pydantic.fields import FieldInfo
 
+from fabricate.config.section import Section
+from fabricate.config.takes import Takes
 from fabricate.units import format_angle, format_length
 
 _BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
@@ -18,7 +20,8 @@ def expectation(field: FieldInfo) -> str:
     words, present = _without_words(field)
     if get_origin(present.annotation) is Literal:
         return "one of " + ", ".join(f'"{choice}"' for choice in get_args(present.annotation))
-    is_length = any(isinstance(fact, BeforeValidator) for fact in present.metadata)
+    named = [fact.words for fact in present.metadata if isinstance(fact, Takes)]
+    is_length = not named and any(isinstance(fact, BeforeValidator) for fact in present.metadata)
     is_angle = any(isinstance(fact, PlainSerializer) and fact.func is format_angle for fact in present.metadata)
     kinds: dict[object, str] = {str: "text", int: "a whole number", float: "a number"}
     show = format_angle if is_angle else format_length if is_length else "{:g}".format
@@ -28,7 +31,12 @@ def expectation(field: FieldInfo) -> str:
         for bound, words in _BOUNDS.items()
         if hasattr(fact, bound)
     )
-    kind = "an angle" if is_angle else "a length" if is_length else kinds[present.annotation]
+    if named:
+        kind = named[0]
+    elif isinstance(present.annotation, type) and issubclass(present.annotation, Section):
+        kind = f"a table of {', '.join(present.annotation.model_fields)}"
+    else:
+        kind = "an angle" if is_angle else "a length" if is_length else kinds[present.annotation]
     return ", ".join([*(f'"{word}"' for word in words), kind, *bounds]).replace('", a', '" or a', 1)
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from fabricate.config.length import Length
+from fabricate.config.point import Point
 from fabricate.config.section import Section, wrong_value
 
 
@@ -23,6 +24,8 @@ class PatternConfig(Section):
     """Spanning tree that the yellow region grows along; a random one avoids necks that are too narrow to print."""
     seed: Annotated[int, Field(ge=0)] = 0
     """Another seed gives another random tree, the same seed always the same."""
+    root: Point | None = Field(default=None, examples=[["0 mm", "0 mm", "50 mm"]])
+    """Place on the sculpture that breadth-first and depth-first trees grow from; drawn from seed unless given."""
     arc: Annotated[float, Field(gt=0.293, lt=0.707)] = 0.5
     """Where the curve crosses tile edges, from the yellow end; more gives yellow a larger share."""
 

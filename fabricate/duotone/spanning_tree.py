@@ -30,18 +30,18 @@ class _YellowGraph(NamedTuple):
 Tree: TypeAlias = Literal["random", "breadth-first", "depth-first"]
 
 
-def grown_duotone(quads: QuadMesh, *, tree: Tree, seed: int, reluctance: Indices | None = None) -> Duotone:
-    """Join a spanning tree of the named kind; `seed` draws the random weights, or else the root.
+def grown_duotone(
+    quads: QuadMesh, *, tree: Tree, seed: int, root: int | None = None, reluctance: Indices | None = None
+) -> Duotone:
+    """Join a spanning tree of the named kind; `seed` draws the random weights, or else the root if none is given.
 
     `reluctance` is for random trees, see `random_duotone`; others have a shape of their own.
     """
-    match tree:
-        case "random":
-            return random_duotone(quads, seed=seed, reluctance=reluctance)
-        case "breadth-first":
-            return breadth_first_duotone(quads, root=seeded_root(quads, seed=seed))
-        case "depth-first":
-            return depth_first_duotone(quads, root=seeded_root(quads, seed=seed))
+    if tree == "random":
+        return random_duotone(quads, seed=seed, reluctance=reluctance)
+    start = seeded_root(quads, seed=seed) if root is None else root
+    grow = breadth_first_duotone if tree == "breadth-first" else depth_first_duotone
+    return grow(quads, root=start)
 
 
 def random_duotone(quads: QuadMesh, *, seed: int, reluctance: Indices | None = None) -> Duotone:

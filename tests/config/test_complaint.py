@@ -70,6 +70,8 @@ MISTAKES = [
     Mistake(TORUS + '[pattern]\ntree = ["random"]', ("pattern.tree", '["random"]')),
     Mistake(TORUS + "[pattern]\narc = 0.293", ("pattern.arc", "more than 0.293", "less than 0.707")),
     Mistake(TORUS + "[pattern]\narc = nan", ("pattern.arc", "a number", "NaN")),
+    Mistake(TORUS + '[pattern]\nroot = ["1 mm", "2 mm"]', ("pattern.root", "three lengths", "found")),
+    Mistake(TORUS + '[pattern]\nroot = ["1 mm", "2 mm", 3]', ("pattern.root[2]", "unit", '"3 mm"')),
     # the parts
     Mistake(TORUS + '[solid]\nthicknes = "2 mm"', ("solid.thicknes", "did you mean solid.thickness?")),
     Mistake(TORUS + 'thickness = "2 mm"', ("source.thickness", "did you mean solid.thickness?")),

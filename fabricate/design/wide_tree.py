@@ -14,7 +14,9 @@ STEPS = 4
 """Into how many steps the way up to a wide neck is divided; necks within one step count as alike."""
 
 
-def wide_duotone(quads: QuadMesh, *, tree: Tree, seed: int, arc: float, neck: float) -> Duotone:
+def wide_duotone(
+    quads: QuadMesh, *, tree: Tree, seed: int, arc: float, neck: float, root: int | None = None
+) -> Duotone:
     """Join a spanning tree; a random one avoids tiles whose necks would be narrower for it than `neck` mm.
 
     A tile's neck runs along the diagonal that is joined, and is narrow where the other diagonal is short. Of random
@@ -26,7 +28,7 @@ def wide_duotone(quads: QuadMesh, *, tree: Tree, seed: int, arc: float, neck: fl
     PatternError
         If the arc position is out of range.
     """
-    return grown_duotone(quads, tree=tree, seed=seed, reluctance=_reluctance(quads, arc=arc, neck=neck))
+    return grown_duotone(quads, tree=tree, seed=seed, root=root, reluctance=_reluctance(quads, arc=arc, neck=neck))
 
 
 def _reluctance(quads: QuadMesh, *, arc: float, neck: float) -> Indices:

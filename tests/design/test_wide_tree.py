@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fabricate.design.wide_tree import wide_duotone
 from fabricate.duotone.catmull_clark import subdivided
 from fabricate.duotone.certificate import certified
 from fabricate.duotone.quad_mesh import QuadMesh
@@ -16,7 +17,6 @@ from fabricate.duotone.spanning_tree import Tree, grown_duotone
 from fabricate.mesh.torus import torus
 from fabricate.surface.neck import NeckGauge, coarse_necks
 from fabricate.surface.sizing import sized
-from fabricate.surface.wide_tree import wide_duotone
 
 
 def slanted_torus() -> QuadMesh:

@@ -1,0 +1,1 @@
+"""The curve chosen: which of all single curves is drawn, and what decides it."""

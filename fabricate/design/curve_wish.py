@@ -1,0 +1,32 @@
+"""What is asked of the curve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fabricate.duotone.spanning_tree import Tree
+
+
+@dataclass(frozen=True, kw_only=True)
+class CurveWish:
+    """Which of all single curves is asked for.
+
+    Attributes
+    ----------
+    tree : {"random", "breadth-first", "depth-first"}
+        Spanning tree that the yellow region grows along.
+    seed : int
+        Draws whatever is drawn.
+    root : (x, y, z) or None
+        Where breadth-first and depth-first trees grow from, mm; drawn if None.
+    arc : float
+        Where the curve crosses tile sides, from their yellow ends.
+    neck : float
+        Narrowest neck that will do, mm, before clearance is taken off.
+    """
+
+    tree: Tree
+    seed: int
+    arc: float
+    neck: float
+    root: tuple[float, float, float] | None = None

@@ -1,0 +1,57 @@
+"""Designs: the duotone that a wish asks for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import shortest_path
+
+from fabricate.design.curve_wish import CurveWish
+from fabricate.design.designed import designed, grown
+from fabricate.duotone.certificate import certified
+from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.duotone.spanning_tree import Tree
+from fabricate.mesh.sphere import geodesic_sphere
+from fabricate.surface.limit import limit_vertices
+from fabricate.surface.sizing import sized, tiled
+
+WISH = CurveWish(tree="random", seed=3, arc=0.5, neck=1.0)
+
+
+def ball() -> QuadMesh:
+    return tiled(sized(geodesic_sphere(frequency=2), size=50), tile_size=5)
+
+
+def corridor_lengths(duotone: Duotone, root: int) -> np.ndarray:
+    """Tiles between the root and each point of the yellow tree."""
+    ends = duotone.quads.tiles[duotone.joined][:, [0, 2]].T
+    count = len(duotone.quads.points)
+    tree = coo_array((np.ones(ends.shape[1]), (ends[0], ends[1])), shape=(count, count))
+    return np.asarray(shortest_path(tree, directed=False, indices=root))[duotone.quads.yellow]
+
+
+@pytest.mark.parametrize("tree", ["random", "breadth-first", "depth-first"])
+def test_a_design_is_one_curve(tree: Tree) -> None:
+    wish = replace(WISH, tree=tree)
+    duotone = designed(ball(), wish).duotone
+    assert certified(duotone).holds
+    assert np.array_equal(duotone.joined, grown(ball(), wish).joined)
+
+
+def test_corridors_radiate_from_the_root() -> None:
+    quads = ball()
+    duotone = grown(quads, replace(WISH, tree="breadth-first", root=(0.0, 0.0, 25.0)))
+    top = int(np.where(quads.yellow, limit_vertices(quads)[:, 2], -np.inf).argmax())
+    every = coo_array((np.ones(len(quads.tiles)), tuple(quads.tiles[:, [0, 2]].T)), shape=2 * (len(quads.points),))
+    shortest = np.asarray(shortest_path(every, directed=False, unweighted=True, indices=top))[quads.yellow]
+    assert np.array_equal(corridor_lengths(duotone, top), shortest)
+
+
+def test_another_root_gives_another_tree() -> None:
+    roots = [(0.0, 0.0, 25.0), (25.0, 0.0, 0.0)]
+    first, second = (grown(ball(), replace(WISH, tree="depth-first", root=root)).joined for root in roots)
+    assert not np.array_equal(first, second)
