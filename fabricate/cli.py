@@ -16,17 +16,18 @@ import typer
 from platformdirs import user_cache_path
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn
+from typer.exceptions import TyperException
 
 from fabricate.batch.workers import Listener, Outcome, run_all
 from fabricate.checks.report import Check, report_json
 from fabricate.config.schema import json_schema
 from fabricate.errors import ConfigError, FabricateError
-from fabricate.output.files import write_whole
+from fabricate.output.files import check_writable, write_whole
 from fabricate.output.new_config import write_new_config
 from fabricate.pipeline import check as check_parts
 from fabricate.pipeline import inspect as inspect_mesh
 from fabricate.prepare.diagnosis_text import diagnosis_data, diagnosis_text
-from fabricate.prepare.store import Store
+from fabricate.prepare.store import Store, checked_store
 from fabricate.units import parse_length
 
 CACHE = user_cache_path("fabricate", appauthor=False)
@@ -44,13 +45,25 @@ app = typer.Typer(
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and leave with its exit status; whatever goes wrong becomes one line."""
     try:
-        app(arguments)
+        status = app(arguments, prog_name="fabricate", standalone_mode=False)
     except FabricateError as error:
         _leave(str(error))
+    except TyperException as error:
+        _leave_usage(error)
     except Exception as error:  # noqa: BLE001 - a mistake of ours; the traceback is there for who asks
         if os.environ.get("FABRICATE_DEBUG"):
             traceback.print_exception(error)
         _leave(_internal_error(error))
+    sys.exit(status)
+
+
+def _leave_usage(error: TyperException) -> NoReturn:
+    """Say what is wrong with the way the command line was used; without any arguments, help was shown instead."""
+    message, context = error.format_message().strip(), getattr(error, "ctx", None)
+    if message:
+        command = "fabricate" if context is None else context.command_path
+        _leave(f"{message.rstrip('.')}; see `{command} --help`")
+    sys.exit(2)
 
 
 def _leave(message: str) -> NoReturn:
@@ -97,8 +110,8 @@ def run(
     ] = CACHE,
 ) -> None:
     """Make the parts of each config: one folder with STL, 3MF, pictures and a report."""
+    store = Store(cache) if cache == CACHE else checked_store(cache)
     with _listener(out) as listener:
-        store = Store(cache)
         outcomes = run_all(configs, out=out, overrides=settings or (), jobs=jobs, listener=listener, store=store)
     raise typer.Exit(max(outcome.status for outcome in outcomes))
 
@@ -115,6 +128,8 @@ def check(
     ] = None,
 ) -> None:
     """Read parts back from their files and judge them."""
+    if json_file is not None:
+        check_writable(json_file)
     report = check_parts(paths, clearance=None if clearance is None else _clearance(clearance))
     for each in report.checks:
         typer.echo(_check_line(each))

@@ -1,6 +1,7 @@
 """The command line: exit statuses, where each line goes, and never a traceback for what a user can cause."""
 
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -203,7 +204,27 @@ def test_an_interruption_is_status_130(call: Call, monkeypatch: pytest.MonkeyPat
 def test_wrong_usage_is_status_2(call: Call, arguments: tuple[str, ...]) -> None:
     said = call(*arguments)
     assert (said.status, said.out) == (2, "")
-    assert said.err
+    assert re.fullmatch(r"fabricate: .+; see `fabricate( \w+)? --help`\n", said.err)
+
+
+def test_without_arguments_help_is_shown(call: Call) -> None:
+    said = call()
+    assert (said.status, said.err) == (2, "")
+    assert "inspect" in said.out
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("run", "good.toml", "--cache", "good.toml/cache"), ("check", "good.toml", "--json", "nowhere/report.json")],
+)
+def test_a_place_that_cannot_be_written_is_said_first(
+    call: Call, made: list[object], monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
+    monkeypatch.setattr(cli, "check_parts", fail(AssertionError("nothing should have been checked")))
+    said = call(*arguments)
+    assert (said.status, said.out, made) == (2, "", [])
+    assert said.err.startswith("fabricate: cannot ")
+    assert said.err.count("\n") == 1
 
 
 CHECKS = (

@@ -52,9 +52,13 @@ from fabricate.checks.printability import neck_check, process_gap_check, wall_ch
 from fabricate.checks.topology import topology
 from fabricate.checks.walls import walls
 from fabricate.errors import ReadError
+from fabricate.formats.limits import ReadLimits
 from fabricate.formats.reading import read_mesh
 from fabricate.solid.part import Part
 from fabricate.triangles.crossing import crossing_triangles
+
+PART_LIMITS = ReadLimits(max_bytes=4 << 30, max_faces=20_000_000)
+"""More than the finest tessellation that is made gives a part, in text as well."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +89,7 @@ def read_part(path: Path) -> Part:
     ReadError
         If the file is missing, is no mesh of triangles, is damaged or holds unusable numbers.
     """
-    mesh = read_mesh(path)
+    mesh = read_mesh(path, limits=PART_LIMITS)
     if (mesh.face_sizes != 3).any():
         largest = mesh.face_sizes.max()
         raise ReadError(f"{path}: a mesh of triangles was expected, found a face with {largest} corners")

@@ -33,6 +33,23 @@ def beside(path: Path, purpose: str) -> Path:
     return path.with_name(f".{path.name}.{secrets.token_hex(4)}.{purpose}")
 
 
+def check_writable(path: Path) -> None:
+    """Raise an error if a file can't be written, before work is spent on what it is to hold.
+
+    Raises
+    ------
+    OutputError
+    """
+    temporary = beside(path, "part")
+    try:
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "Is a directory")
+        temporary.touch()
+        temporary.unlink()
+    except OSError as reason:
+        raise output_error(path, reason) from reason
+
+
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file beside `path` and rename it to `path`; a file already there is replaced.
 

@@ -15,6 +15,7 @@ from time import perf_counter
 
 import numpy as np
 
+from fabricate.errors import PrepareError
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.versions import installed_version
 
@@ -61,6 +62,25 @@ class Store:
 
 
 NOTHING_KEPT = Store()
+
+
+def checked_store(folder: Path) -> Store:
+    """Return the store of a folder that somebody named: one that cannot be used is a mistake.
+
+    Raises
+    ------
+    PrepareError
+        If the folder can't be made or written.
+    """
+    trial = folder / f".{secrets.token_hex(4)}.part"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        trial.touch()
+        trial.unlink()
+    except OSError as reason:
+        cause = (reason.strerror or str(reason)).lower()
+        raise PrepareError(f"cannot keep anything in the cache folder {folder}: {cause}; name another one") from reason
+    return Store(folder)
 
 
 def _fingerprint(mesh: PolygonMesh, asked: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fabricate.errors import OutputError
-from fabricate.output.files import beside, output_error, write_whole
+from fabricate.output.files import beside, check_writable, output_error, write_whole
 
 
 def test_a_file_is_written_and_replaced_and_nothing_else_is_left(tmp_path: Path) -> None:
@@ -71,3 +71,11 @@ def test_temporary_names_are_hidden_in_the_same_folder_and_differ() -> None:
     assert len(names) == 20
     assert {name.parent for name in names} == {Path("folder")}
     assert all(name.name.startswith(".part.stl.") for name in names)
+
+
+def test_whether_a_file_can_be_written_is_known_before(tmp_path: Path) -> None:
+    check_writable(tmp_path / "report.json")
+    assert list(tmp_path.iterdir()) == []
+    for wrong in (tmp_path, tmp_path / "missing" / "report.json"):
+        with pytest.raises(OutputError, match="cannot write"):
+            check_writable(wrong)

@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fabricate.errors import PrepareError
 from fabricate.mesh.cube import cube
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare import store as module
-from fabricate.prepare.store import Kept, Store
+from fabricate.prepare.store import Kept, Store, checked_store
 
 CUBE = cube(divisions=2)
 MADE = Kept(replace(CUBE, creases=np.arange(len(CUBE.corners)) % 2 == 0), ("a note with \u00fcmlaut", "another"))
@@ -124,3 +125,11 @@ def test_the_oldest_go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     maker = Maker()
     store.recalled(CUBE, "quads 5", maker)
     assert maker.calls == 0
+
+
+def test_a_named_folder_is_made_and_has_to_be_usable(tmp_path: Path) -> None:
+    assert checked_store(tmp_path / "new" / "cache") == Store(tmp_path / "new" / "cache")
+    assert list((tmp_path / "new" / "cache").iterdir()) == []
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(PrepareError, match="name another one"):
+        checked_store(tmp_path / "file" / "cache")
