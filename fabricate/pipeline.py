@@ -16,7 +16,6 @@ from fabricate.checks.report import Report, report_json
 from fabricate.config import Config, FileConfig, SphereConfig, config_sha256, moved_config, resolved_toml
 from fabricate.design.curve_wish import CurveWish
 from fabricate.design.designed import designed, grown
-from fabricate.duotone.certificate import certified
 from fabricate.duotone.duotone import Duotone
 from fabricate.errors import MeshError
 from fabricate.formats.limits import ReadLimits
@@ -35,6 +34,7 @@ from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
+from fabricate.surface.cut_certificate import cut_certificate
 from fabricate.surface.tile_choice import TileWish, chosen_tiling
 from fabricate.surface.tiling import Tiling
 from fabricate.versions import installed_version
@@ -87,7 +87,7 @@ def _bodies(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, 
 
 
 def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _Stopwatch, store: Store) -> Report:
-    """Make the two parts of one body."""
+    """Make the parts of one body."""
     solid, process = config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
     wish, limit = _wish(config, body)
@@ -95,14 +95,14 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=curve), progress=watch.tell, store=store)
     watch.begin("duotone")
     duotone = designed(tiling.quads, curve).duotone
-    certificate = certified(duotone)
     watch.begin("cut")
     surface = _surface(duotone, tiling, config)
+    certificate = cut_certificate(surface)
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
     with complete_folder(out / name) as folder:
         watch.begin("files")
-        paths = write_sculpture(folder, made.parts, surface.points[surface.curve], name=name)
+        paths = write_sculpture(folder, made.parts, surface.points[surface.curves], name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
         wanted = expectations(
@@ -173,28 +173,28 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         neck=NECK_MARGIN * (feature + clearance),
         clearance=clearance,
         resized=pattern.tile_size == "auto",
-        arc=pattern.arc,
+        rings=pattern.positions,
         seed=prepare.seed,
         cage=not isinstance(source, FileConfig),
         round_limit=isinstance(source, SphereConfig),
     )
     if pattern.tile_size != "auto":
         return wish, ()
-    finest = finest_tile(feature, clearance, extent=source.size, arc=pattern.arc)
+    finest = finest_tile(feature, clearance, extent=source.size, rings=pattern.positions)
     return replace(wish, tile_size=finest.tile_size), (finest.limit,)
 
 
 def _curve_wish(config: Config, *, neck: float) -> CurveWish:
     pattern = config.pattern
-    return CurveWish(tree=pattern.tree, seed=pattern.seed, root=pattern.root, arc=pattern.arc, neck=neck)
+    return CurveWish(tree=pattern.tree, seed=pattern.seed, root=pattern.root, rings=pattern.positions, neck=neck)
 
 
 def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:
     """Return the cut surface, with the detail of the input where new cells were made for it."""
-    arc, tolerance, clearance = config.pattern.arc, config.solid.tolerance, config.solid.clearance
+    rings, tolerance, clearance = config.pattern.positions, config.solid.tolerance, config.solid.clearance
     if tiling.surface is None or config.prepare.detail == "smooth":
-        return fitted_cut(duotone, arc=arc, tolerance=tolerance, clearance=clearance)
-    return detailed_cut(duotone, tiling.surface, arc=arc, tolerance=tolerance, clearance=clearance)
+        return fitted_cut(duotone, rings=rings, tolerance=tolerance, clearance=clearance)
+    return detailed_cut(duotone, tiling.surface, rings=rings, tolerance=tolerance, clearance=clearance)
 
 
 def _versions() -> dict[str, str]:

@@ -26,6 +26,16 @@ class Neck(NamedTuple):
     at: Xyz
 
 
+class Band(NamedTuple):
+    """The narrowest place of the narrowest band: the band's name, its width there before clearance is taken off, mm,
+    where that is, and how far apart the rings are that it lies between, as a share of tile sides."""
+
+    name: str
+    width: float
+    at: Xyz
+    spacing: float
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Expectations:
     """What the parts should be; the checks that need something left at None are skipped.
@@ -40,16 +50,19 @@ class Expectations:
         How they will be printed.
     neck : Neck or None
         The pattern's narrowest.
+    band : Band or None
+        The narrowest of a multitone; a duotone has none.
     spaces : Spaces or None
         What the parts leave free, and what they add up to with it.
     verdict : {"captive", "separable", "fused"} or None
-        Whether two parts come apart. Left at None it is "captive", or "fused" where the clearance is 0.
+        Whether neighbouring parts come apart. Left at None it is "captive", or "fused" where the clearance is 0.
     """
 
     clearance: float | None = None
     genus: Mapping[str, int] = field(default_factory=dict)
     process: Process | None = None
     neck: Neck | None = None
+    band: Band | None = None
     spaces: Spaces | None = None
     verdict: Verdict | None = None
 
@@ -58,5 +71,5 @@ class Expectations:
 
     @property
     def expected_verdict(self) -> Verdict:
-        """What two parts should be, with what `verdict` leaves open filled in."""
+        """What neighbouring parts should be, with what `verdict` leaves open filled in."""
         return self.verdict or ("fused" if self.clearance == 0.0 else "captive")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Generic, Literal, TypeAlias, TypeVar
+from typing import Literal, TypeAlias
 
 from fabricate.prepare.tile_quality import TileQuality
 
@@ -13,16 +13,6 @@ Xyz: TypeAlias = tuple[float, float, float]
 
 Verdict: TypeAlias = Literal["captive", "separable", "fused"]
 """Whether two rigid parts are caught in each other, come apart, or touch and are one."""
-
-_Quantity = TypeVar("_Quantity", int, float)
-
-
-@dataclass(frozen=True)
-class ByColour(Generic[_Quantity]):
-    """One quantity of either region."""
-
-    yellow: _Quantity
-    blue: _Quantity
 
 
 @dataclass(frozen=True)
@@ -101,24 +91,26 @@ class MeshFacts:
 
 @dataclass(frozen=True)
 class PatternFacts:
-    """The duotone: its tiles, its curve and its two regions.
+    """The duotone, or multitone: its tiles, its curves and its regions.
 
     Attributes
     ----------
     tiles, curves, regions : int
-        How many there are; a duotone has one curve and two regions.
+        How many there are; a duotone has one curve and two regions, a multitone of k rings k and k + 1.
     tile_size_mm : float
         Median side of a tile.
     tile_quality : TileQuality
         How even the tiles are.
     curve_length_mm : float
-        Length of the curve on the surface.
-    area_share : ByColour
-        Share of the surface, between 0 and 1.
-    handles : ByColour
+        Length of the curve on the surface, of all curves together.
+    area_share : mapping of str to float
+        Share of the surface, between 0 and 1, by the region's name, from yellow to blue.
+    handles : mapping of str to int
         Handles of each region; they sum to the genus.
     neck_mm : Spread
         Widths of the joined tiles' necks, before clearance is taken off.
+    band_mm : mapping of str to Spread
+        Widths of each band, likewise; none in a duotone.
     """
 
     tiles: int
@@ -127,9 +119,10 @@ class PatternFacts:
     curves: int
     regions: int
     curve_length_mm: float
-    area_share: ByColour[float]
-    handles: ByColour[int]
+    area_share: Mapping[str, float]
+    handles: Mapping[str, int]
     neck_mm: Spread
+    band_mm: Mapping[str, Spread]
 
 
 @dataclass(frozen=True)
@@ -168,6 +161,28 @@ class PartFacts:
 
 
 @dataclass(frozen=True)
+class PairFacts:
+    """How two parts go together; None where it could not be measured or is not known.
+
+    Attributes
+    ----------
+    gap_mm : Gap or None
+        The smallest distance between them.
+    overlap_mm3 : float or None
+        Volume that they have in common.
+    verdict : {"captive", "separable", "fused"} or None
+        See `fabricate.checks.mobility`; None as well where other parts lie between them.
+    play_mm : Play or None
+        How far the first part moves in the second; None for fused parts too.
+    """
+
+    gap_mm: Gap | None
+    overlap_mm3: float | None
+    verdict: Verdict | None
+    play_mm: Play | None
+
+
+@dataclass(frozen=True)
 class FitFacts:
     """How the parts go together; None where it could not be measured or is not known.
 
@@ -180,9 +195,12 @@ class FitFacts:
     overlap_mm3 : float or None
         Volume that parts have in common.
     verdict : {"captive", "separable", "fused"} or None
-        See `fabricate.checks.mobility`.
+        See `fabricate.checks.mobility`. Of several parts, "captive" where each pair of neighbours is, which is enough
+        for all of them to be caught in each other.
     play_mm : Play or None
-        How far the first part moves in the second; None for fused parts too.
+        How far the first of two parts moves in the second; None for fused parts, and for more than two.
+    pairs : mapping of str to PairFacts
+        The same of each pair by the parts' names, such as "yellow-blue".
     """
 
     clearance_mm: float | None
@@ -190,3 +208,4 @@ class FitFacts:
     overlap_mm3: float | None
     verdict: Verdict | None
     play_mm: Play | None
+    pairs: Mapping[str, PairFacts]

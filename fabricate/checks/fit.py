@@ -58,7 +58,8 @@ def gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: floa
         message = f"the smallest gap between {names} is {gap.min:.4g} mm; no clearance was asked for"
         return Check(code, ok=False, skipped=True, message=message, where=where)
     if clearance == 0.0:
-        message = f"{names} touch on purpose: the clearance is 0, so only their overlap counts"
+        touch = "touch" if gap.min == 0.0 else "may touch"
+        message = f"{names} {touch} on purpose: the clearance is 0, so only their overlap counts"
         return Check(code, ok=False, skipped=True, message=message)
     ok = not gap.min < GAP_SHARE * clearance
     spot = "" if ok or gap.at is None else f", at {place(gap.at)}"

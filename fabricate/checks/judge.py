@@ -14,13 +14,15 @@ The codes of all checks, which other programs may rely on; PART stands for the n
     PART.wall                its thinnest wall is thick enough for the process
     FIT.overlap              two parts have no volume in common
     FIT.gap                  the smallest gap between them is at least 95 % of the clearance
+    FIT.mobility             they are captive, separable or fused, as they should be
     fit.whole                volumes of the parts and the gap add up to the uncut shell
-    fit.mobility             two parts are captive, separable or fused, as they should be
     fit.process_gap          the process keeps the clearance open
     pattern.neck             necks are wide enough for the process
+    pattern.band             so are the bands of a multitone
 
 FIT is "fit" for two parts, and "fit.FIRST-SECOND" with their names for each pair of more. A single part has
-no fit.* checks but `fit.process_gap`. What is not known or could not be measured is skipped, not left out.
+no fit.* checks but `fit.process_gap`, and only a pattern that is known to have bands has `pattern.band`. What is not
+known or could not be measured is skipped, not left out.
 """
 
 from __future__ import annotations
@@ -48,7 +50,7 @@ from fabricate.checks.geometry import (
     volume_check,
 )
 from fabricate.checks.pairs import Fit, Solid, fit
-from fabricate.checks.printability import neck_check, process_gap_check, wall_check
+from fabricate.checks.printability import band_check, neck_check, process_gap_check, wall_check
 from fabricate.checks.topology import topology
 from fabricate.checks.walls import walls
 from fabricate.errors import ReadError
@@ -128,6 +130,8 @@ def judged_parts(parts: Sequence[Part], expectations: Expectations) -> Judgement
     clearance, process = expectations.clearance, expectations.process
     checks.append(process_gap_check(clearance, process=process))
     checks.append(neck_check(expectations.neck, clearance=clearance, process=process))
+    if expectations.band is not None:
+        checks.append(band_check(expectations.band, clearance=clearance, process=process))
     facts = MappingProxyType({each.part.name: each.facts for each in judged})
     return Judgement(facts, together.facts if together else None, tuple(checks))
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 import numpy as np
 
-from fabricate.checks.expectations import Expectations, Neck, Spaces
-from fabricate.checks.facts import ByColour, Distance, MeshFacts, PatternFacts, Spread
-from fabricate.duotone.certificate import Certificate
+from fabricate.arrays import Floats
+from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
+from fabricate.checks.facts import Distance, MeshFacts, PatternFacts, Spread, Xyz
+from fabricate.duotone.certificate import Certificate, RegionFacts
 from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.region_names import region_names
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.tile_quality import tile_quality
@@ -18,7 +21,7 @@ from fabricate.process import Process
 from fabricate.solid.assembly import Assembly, Core
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.deviation import deviation
-from fabricate.surface.neck import tile_necks
+from fabricate.surface.neck import band_widths, tile_necks
 from fabricate.surface.sizing import typical_side
 from fabricate.surface.tiling import Tiling
 
@@ -47,21 +50,31 @@ def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurfac
     """Return what was counted and measured of the pattern on the cut surface."""
     corners = surface.points[surface.triangles]
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    share = float(area[surface.yellow].sum() / area.sum())
-    curve = surface.points[surface.curve]
-    length = float(np.linalg.norm(np.roll(curve, -1, axis=0) - curve, axis=1).sum())
-    necks = tile_necks(surface)[0]
+    shares = np.bincount(surface.regions, area) / area.sum()
+    curves = surface.points[surface.curves]
+    length = float(np.linalg.norm(np.roll(curves, -1, axis=1) - curves, axis=2).sum())
+    names = region_names(len(certificate.regions))
+    bands = [_spread(widths) for widths, _ in band_widths(surface)]
     return PatternFacts(
         tiles=len(duotone.joined),
         tile_size_mm=typical_side(duotone.quads),
         tile_quality=tile_quality(duotone.quads.points[duotone.quads.tiles]),
         curves=certificate.curves,
-        regions=certificate.yellow.components + certificate.blue.components,
+        regions=sum(region.components for region in certificate.regions),
         curve_length_mm=length,
-        area_share=ByColour(share, 1.0 - share),
-        handles=ByColour(certificate.yellow.handles, certificate.blue.handles),
-        neck_mm=Spread(float(necks.min()), float(np.median(necks))),
+        area_share=MappingProxyType(dict(zip(names, shares.tolist(), strict=True))),
+        handles=MappingProxyType({name: region.handles for name, region in _named(certificate)}),
+        neck_mm=_spread(tile_necks(surface)[0]),
+        band_mm=MappingProxyType(dict(zip(names[1:-1], bands, strict=True))),
     )
+
+
+def _named(certificate: Certificate) -> Iterable[tuple[str, RegionFacts]]:
+    return zip(region_names(len(certificate.regions)), certificate.regions, strict=True)
+
+
+def _spread(widths: Floats) -> Spread:
+    return Spread(float(widths.min()), float(np.median(widths)))
 
 
 def expectations(
@@ -73,26 +86,41 @@ def expectations(
     core: Core,
     process: Process | None = None,
 ) -> Expectations:
-    """Return what the two parts of these solids should be, when they are read back from their files."""
-    necks, places = tile_necks(surface)
-    x, y, z = (float(value) for value in places[necks.argmin()])
+    """Return what the parts of these solids should be, when they are read back from their files."""
     gap, shell = solids.spaces
     return Expectations(
         clearance=clearance,
-        genus=expected_genus(certificate.yellow.handles, certificate.blue.handles, core=core),
+        genus=expected_genus({name: region.handles for name, region in _named(certificate)}, core=core),
         process=process,
-        neck=Neck(float(necks.min()), (x, y, z)),
+        neck=Neck(*_narrowest(tile_necks(surface))),
+        band=_narrowest_band(surface),
         spaces=Spaces(gap, shell),
     )
 
 
-def expected_genus(yellow: int, blue: int, *, core: Core) -> dict[str, int]:
-    """Return the handles of each solid, from those of its region.
+def _narrowest_band(surface: CutSurface) -> Band | None:
+    names = region_names(len(surface.rings) + 1)[1:-1]
+    measured = zip(names, band_widths(surface), np.diff(surface.rings).tolist(), strict=True)
+    bands = [Band(name, *_narrowest(widths), spacing) for name, widths, spacing in measured]
+    return min(bands, key=lambda band: band.width, default=None)
 
-    A region thickened is bounded by two copies of itself: twice its handles. A part with a core is bounded by
-    its own region and a copy of the other one: the genus of the whole.
+
+def _narrowest(measured: tuple[Floats, Floats]) -> tuple[float, Xyz]:
+    """Return the smallest of some widths, (t,), and where it is, of places (t, 3)."""
+    widths, places = measured
+    x, y, z = (float(value) for value in places[widths.argmin()])
+    return float(widths.min()), (x, y, z)
+
+
+def expected_genus(handles: Mapping[str, int], *, core: Core) -> dict[str, int]:
+    """Return the handles of each solid, from those of its region, by name.
+
+    A region thickened is bounded by two copies of itself, joined along each of its boundary circles: twice its handles,
+    and one more for a band, which has two such circles. A part with a core is bounded by its own region and a copy of
+    all the others: the genus of the whole.
     """
+    ends = ("yellow", "blue")
     return {
-        "yellow": yellow + blue if core == "yellow" else 2 * yellow,
-        "blue": yellow + blue if core == "blue" else 2 * blue,
+        name: sum(handles.values()) if name == core else 2 * own + (0 if name in ends else 1)
+        for name, own in handles.items()
     }

@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from types import MappingProxyType
 
+import numpy as np
 from manifold3d import Manifold
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Expectations
-from fabricate.checks.facts import FitFacts, Gap
+from fabricate.checks.facts import FitFacts, Gap, PairFacts, Verdict
 from fabricate.checks.fit import gap_check, overlap_check, whole_check
 from fabricate.checks.gap import Spacing, smallest_gap
-from fabricate.checks.mobility import Mobility, mobility, mobility_check
+from fabricate.checks.mobility import REACH, Mobility, mobility, mobility_check
 from fabricate.solid.part import Part
 from fabricate.triangles.search_tree import SearchTree
 
@@ -42,75 +46,97 @@ class Fit:
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """How two parts that both are solids go together; `overlap` is in mm3."""
+    """How two parts go together; without a gap where one of them is no solid."""
 
-    spacing: Spacing
-    gap: Gap
-    overlap: float
+    facts: PairFacts
     checks: tuple[Check, ...]
+
+    @property
+    def measured(self) -> bool:
+        return self.facts.gap_mm is not None
 
 
 def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expectations) -> Fit:
     """Find out and check how two or more parts go together; `solids` holds those that are solids, by name."""
-    clearance = expectations.clearance
-    pairs: list[_Pair] = []
-    checks: list[Check] = []
+    pairs: dict[str, _Pair] = {}
     for first, second in combinations(parts, 2):
-        prefix = "fit" if len(parts) == 2 else f"fit.{first.name}-{second.name}"
+        name = f"{first.name}-{second.name}"
+        prefix = "fit" if len(parts) == 2 else f"fit.{name}"
         if first.name in solids and second.name in solids:
-            pairs.append(_pair(prefix, solids[first.name], solids[second.name], clearance=clearance))
-            checks += pairs[-1].checks
+            between = solids[first.name], solids[second.name]
+            pairs[name] = _pair(prefix, *between, expectations, only_pair=len(parts) == 2)
         else:
-            checks += _unmeasured(prefix, first, second, spoiler=second if first.name in solids else first)
-    found = _found_mobility(pairs, clearance) if len(parts) == 2 else None
-    checks += [_whole(parts, expectations), _moving(parts, found, expectations)]
+            pairs[name] = _unmeasured(prefix, first, second, spoiler=second if first.name in solids else first)
+    checks = [check for pair in pairs.values() for check in pair.checks]
+    measured = [pair.facts for pair in pairs.values() if pair.measured]
     facts = FitFacts(
-        clearance_mm=clearance,
-        gap_mm=min((pair.gap for pair in pairs), key=lambda gap: gap.min, default=None),
-        overlap_mm3=sum(pair.overlap for pair in pairs) if pairs else None,
-        verdict=found.verdict if found else None,
-        play_mm=found.play if found else None,
+        clearance_mm=expectations.clearance,
+        gap_mm=min((pair.gap_mm for pair in measured if pair.gap_mm), key=lambda gap: gap.min, default=None),
+        overlap_mm3=sum(pair.overlap_mm3 or 0.0 for pair in measured) if measured else None,
+        verdict=_verdict(len(parts), list(pairs.values())),
+        play_mm=measured[0].play_mm if len(parts) == 2 and measured else None,
+        pairs=MappingProxyType({name: pair.facts for name, pair in pairs.items()}),
     )
-    return Fit(facts, tuple(checks))
+    return Fit(facts, (*checks, _whole(parts, expectations)))
 
 
-def _pair(prefix: str, first: Solid, second: Solid, *, clearance: float | None) -> _Pair:
+def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, *, only_pair: bool) -> _Pair:
+    clearance = expectations.clearance
     common = first.manifold ^ second.manifold
     spacing = Spacing.between(first.tree, second.tree)
     gap = smallest_gap(spacing, first.manifold, second.manifold, clearance=clearance)
     smaller = min(first.manifold.volume(), second.manifold.volume())
+    apart = not only_pair and clearance is not None and gap.min > REACH * clearance
+    found = None if apart else _found_mobility(spacing, gap, clearance)
     checks = (
         overlap_check(f"{prefix}.overlap", first.part, second.part, common, smaller_volume=smaller),
         gap_check(f"{prefix}.gap", first.part, second.part, gap, clearance=clearance),
+        _moving(f"{prefix}.mobility", first.part, second.part, found, expectations, apart=apart),
     )
-    return _Pair(spacing, gap, common.volume(), checks)
+    verdict, play = found or (None, None)
+    return _Pair(PairFacts(gap_mm=gap, overlap_mm3=common.volume(), verdict=verdict, play_mm=play), checks)
 
 
-def _unmeasured(prefix: str, first: Part, second: Part, *, spoiler: Part) -> list[Check]:
+def _unmeasured(prefix: str, first: Part, second: Part, *, spoiler: Part) -> _Pair:
     message = f"{first.name} and {second.name} were not measured, because {spoiler.name} is no solid"
-    return [Check(f"{prefix}.{what}", ok=False, skipped=True, message=message) for what in ("overlap", "gap")]
+    checks = (
+        Check(f"{prefix}.{what}", ok=False, skipped=True, message=message) for what in ("overlap", "gap", "mobility")
+    )
+    return _Pair(PairFacts(gap_mm=None, overlap_mm3=None, verdict=None, play_mm=None), tuple(checks))
 
 
-def _found_mobility(pairs: Sequence[_Pair], clearance: float | None) -> Mobility | None:
-    """Return the mobility of the only pair, or None where it can't be told."""
-    if not pairs:
-        return None
-    if clearance == 0.0 or pairs[0].gap.min == 0.0:
+def _found_mobility(spacing: Spacing, gap: Gap, clearance: float | None) -> Mobility | None:
+    """Return the mobility of neighbouring parts, or None where it can't be told."""
+    if clearance == 0.0 or gap.min == 0.0:
         return Mobility("fused", None)
-    return None if clearance is None else mobility(pairs[0].spacing, clearance=clearance)
+    return None if clearance is None else mobility(spacing, clearance=clearance)
 
 
-def _moving(parts: Sequence[Part], found: Mobility | None, expectations: Expectations) -> Check:
-    code = "fit.mobility"
+def _moving(
+    code: str, first: Part, second: Part, found: Mobility | None, expectations: Expectations, *, apart: bool
+) -> Check:
     if found is not None:
-        return mobility_check(code, parts[0], parts[1], found, expected=expectations.expected_verdict)
-    if len(parts) > 2:
-        reason = "it is judged for two parts only"
-    elif expectations.clearance is None:
-        reason = "the clearance is not known"
-    else:
-        reason = "not both are solids"
-    return Check(code, ok=False, skipped=True, message=f"how the parts move was not judged, because {reason}")
+        return mobility_check(code, first, second, found, expected=expectations.expected_verdict)
+    reason = "other parts lie between them" if apart else "the clearance is not known"
+    message = f"how {first.name} and {second.name} move was not judged, because {reason}"
+    return Check(code, ok=False, skipped=True, message=message)
+
+
+def _verdict(count: int, pairs: Sequence[_Pair]) -> Verdict | None:
+    """Return what all parts are: captive where neighbours are, and each part is joined to every other by neighbours.
+
+    `pairs` are those of `count` parts in the order of `combinations`.
+    """
+    if not all(pair.measured for pair in pairs):
+        return None
+    verdicts = {pair.facts.verdict for pair in pairs} - {None}
+    if "separable" in verdicts:
+        return "separable"
+    held = [ends for ends, pair in zip(combinations(range(count), 2), pairs, strict=True) if pair.facts.verdict]
+    graph = coo_array((np.ones(len(held)), np.reshape(held, (-1, 2)).T.astype(np.int64)), shape=(count, count))
+    if connected_components(graph, directed=False)[0] > 1:
+        return None
+    return "captive" if "captive" in verdicts else "fused"
 
 
 def _whole(parts: Sequence[Part], expectations: Expectations) -> Check:

@@ -1,4 +1,4 @@
-"""Printability: walls, necks and gap of the parts against what a printing process can make.
+"""Printability: walls, necks, bands and gap of the parts against what a printing process can make.
 
 A gap fails only when slicers close it, which makes one lump of the parts. Between that and the process's own
 gap for parts printed in place it passes, and the message says that it is tight.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from fabricate.checks.check import Check
-from fabricate.checks.expectations import Neck
+from fabricate.checks.expectations import Band, Neck
 from fabricate.checks.walls import Walls
 from fabricate.checks.wording import place
 from fabricate.process import Process
@@ -53,6 +53,34 @@ def neck_check(neck: Neck | None, *, clearance: float | None, process: Process |
         message=f"necks must be at least {process.feature_min:g} mm wide for {process.name}, and the "
         f"narrowest has {left:.4g} mm, {neck.width:.4g} mm less the clearance of {clearance:.4g} mm{advice}",
         where=np.array([neck.at]),
+    )
+
+
+def band_check(band: Band, *, clearance: float | None, process: Process | None) -> Check:
+    """Check that the narrowest band, less the clearance, is at least the process's smallest feature.
+
+    A band is as wide as its rings are apart, so the message says how far apart they would have to be.
+    """
+    code = "pattern.band"
+    if clearance is None or process is None:
+        missing = "clearance" if clearance is None else "process"
+        message = f"bands were not judged, because the {missing} is not known"
+        return Check(code, ok=False, skipped=True, message=message)
+    left = band.width - clearance
+    ok = left >= process.feature_min
+    spacing = band.spacing * (process.feature_min + clearance) / max(band.width, 1e-9)
+    advice = (
+        ""
+        if ok
+        else f", at {place(band.at)}; ask for larger tiles, or rings at least {spacing:.3g} apart instead of "
+        f"{band.spacing:.3g}"
+    )
+    return Check(
+        code,
+        ok=ok,
+        message=f"bands must be at least {process.feature_min:g} mm wide for {process.name}, and the narrowest, "
+        f"{band.name}, has {left:.4g} mm, {band.width:.4g} mm less the clearance of {clearance:.4g} mm{advice}",
+        where=np.array([band.at]),
     )
 
 

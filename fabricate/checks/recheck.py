@@ -29,13 +29,8 @@ class Recheck(NamedTuple):
     judgement: Judgement
 
 
-class _Handles(BaseModel):
-    yellow: int
-    blue: int
-
-
 class _Pattern(BaseModel):
-    handles: _Handles
+    handles: dict[str, int]
 
 
 class _Part(BaseModel):
@@ -78,13 +73,12 @@ def _rechecked_folder(folder: Path, clearance: float | None) -> Recheck:
     if not (folder / "config.toml").is_file():
         raise ReadError(f"{folder / 'config.toml'}: not found; `fabricate run` wrote it beside the parts: put it back")
     config = load_config(folder / "config.toml")
-    handles = recorded.pattern.handles
     parts = [read_part(folder / part.file) for part in recorded.parts.values()]
     judgement = judged_parts(
         parts,
         Expectations(
             clearance=config.solid.clearance if clearance is None else clearance,
-            genus=expected_genus(handles.yellow, handles.blue, core=config.solid.core),
+            genus=expected_genus(recorded.pattern.handles, core=config.solid.core),
             process=PROCESSES[config.process.name],
         ),
     )

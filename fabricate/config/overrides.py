@@ -9,7 +9,9 @@ from fabricate.config.keys import keys_of, nearest_key
 from fabricate.errors import ConfigError
 
 _REPLACES = {
+    "pattern.arc": "rings",
     "pattern.levels": "tile_size",
+    "pattern.rings": "arc",
     "pattern.tile_size": "levels",
     "source.shape": "path",
     "source.path": "shape",

@@ -8,11 +8,12 @@ from pydantic import Field, model_validator
 
 from fabricate.config.length import Length
 from fabricate.config.point import Point
+from fabricate.config.ring_positions import HIGHEST, LOWEST, RING_DESIGNS, RingDesign, Rings
 from fabricate.config.section import Section, wrong_value
 
 
 class PatternConfig(Section):
-    """The curve: one closed line that winds over the whole surface."""
+    """The curve: one closed line that winds over the whole surface, or several side by side."""
 
     tile_size: Literal["auto"] | Annotated[Length, Field(gt=0)] | None = Field(
         default=7.0, json_schema_extra={"default": "7 mm"}
@@ -26,16 +27,32 @@ class PatternConfig(Section):
     """Another seed gives another random tree, the same seed always the same."""
     root: Point | None = Field(default=None, examples=[["0 mm", "0 mm", "50 mm"]])
     """Place on the sculpture that breadth-first and depth-first trees grow from; drawn from seed unless given."""
-    arc: Annotated[float, Field(gt=0.293, lt=0.707)] = 0.5
+    arc: Annotated[float, Field(gt=LOWEST, lt=HIGHEST)] | None = Field(default=0.5)
     """Where the curve crosses tile edges, from the yellow end; more gives yellow a larger share."""
+    rings: RingDesign | Rings | None = Field(default=None, examples=["three"])
+    """Several such places, for bands between yellow and blue along the whole curve; instead of arc."""
 
     @model_validator(mode="before")
     @classmethod
     def _levels_replace_the_default(cls, data: object) -> object:
         return {"tile_size": None, **data} if isinstance(data, dict) and "levels" in data else data
 
+    @model_validator(mode="before")
+    @classmethod
+    def _rings_replace_the_default(cls, data: object) -> object:
+        return {"arc": None, **data} if isinstance(data, dict) and "rings" in data else data
+
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
         if (self.levels is None) == (self.tile_size is None):
             raise wrong_value("pattern.levels", "expected either tile_size or levels, not both: remove one")
+        if (self.rings is None) == (self.arc is None):
+            raise wrong_value("pattern.rings", "expected either rings or arc, not both: remove one")
         return self
+
+    @property
+    def positions(self) -> tuple[float, ...]:
+        """Where curves cross tile edges, from the yellow end: one for a duotone."""
+        if isinstance(self.rings, str):
+            return RING_DESIGNS[self.rings]
+        return self.rings or (self.arc or 0.5,)

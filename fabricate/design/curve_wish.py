@@ -19,14 +19,14 @@ class CurveWish:
         Draws whatever is drawn.
     root : (x, y, z) or None
         Where breadth-first and depth-first trees grow from, mm; drawn if None.
-    arc : float
-        Where the curve crosses tile sides, from their yellow ends.
+    rings : tuple of float
+        Where the curve, or each of several curves side by side, crosses tile sides, from their yellow ends.
     neck : float
         Narrowest neck that will do, mm, before clearance is taken off.
     """
 
     tree: Tree
     seed: int
-    arc: float
+    rings: tuple[float, ...]
     neck: float
     root: tuple[float, float, float] | None = None

@@ -32,10 +32,10 @@ def grown(quads: QuadMesh, wish: CurveWish) -> Duotone:
     Raises
     ------
     PatternError
-        If the arc position is out of range.
+        If the positions of the arcs are out of range or do not increase.
     """
     root = None if wish.root is None else _nearest_yellow(quads, wish.root)
-    return wide_duotone(quads, tree=wish.tree, seed=wish.seed, root=root, arc=wish.arc, neck=wish.neck)
+    return wide_duotone(quads, tree=wish.tree, seed=wish.seed, root=root, rings=wish.rings, neck=wish.neck)
 
 
 def designed(quads: QuadMesh, wish: CurveWish) -> Design:
@@ -44,7 +44,7 @@ def designed(quads: QuadMesh, wish: CurveWish) -> Design:
     Raises
     ------
     PatternError
-        If the arc position is out of range.
+        If the positions of the arcs are out of range or do not increase.
     """
     return Design(grown(quads, wish))
 

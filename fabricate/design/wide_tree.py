@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from fabricate.arrays import Indices
@@ -15,7 +17,7 @@ STEPS = 4
 
 
 def wide_duotone(
-    quads: QuadMesh, *, tree: Tree, seed: int, arc: float, neck: float, root: int | None = None
+    quads: QuadMesh, *, tree: Tree, seed: int, rings: Sequence[float], neck: float, root: int | None = None
 ) -> Duotone:
     """Join a spanning tree; a random one avoids tiles whose necks would be narrower for it than `neck` mm.
 
@@ -26,14 +28,14 @@ def wide_duotone(
     Raises
     ------
     PatternError
-        If the arc position is out of range.
+        If the positions of the arcs are out of range or do not increase.
     """
-    return grown_duotone(quads, tree=tree, seed=seed, root=root, reluctance=_reluctance(quads, arc=arc, neck=neck))
+    return grown_duotone(quads, tree=tree, seed=seed, root=root, reluctance=_reluctance(quads, rings=rings, neck=neck))
 
 
-def _reluctance(quads: QuadMesh, *, arc: float, neck: float) -> Indices:
+def _reluctance(quads: QuadMesh, *, rings: Sequence[float], neck: float) -> Indices:
     """Return by how many steps each tile's neck is narrower yellow-joined than blue-joined, (t,) int."""
-    necks = NeckGauge.of(quads, arc=arc).necks(quads.points)
+    necks = NeckGauge.of(quads, rings=rings).necks(quads.points)
     reached = np.floor(STEPS * np.minimum(necks / neck, 1.0)).astype(np.int64)
     steps: Indices = reached[:, 1] - reached[:, 0]
     return steps

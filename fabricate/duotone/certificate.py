@@ -1,4 +1,4 @@
-"""Proof that a duotone is one curve between two connected regions, counted from the tiles themselves."""
+"""Proof that a pattern is one curve between two connected regions, or k curves between k + 1, counted from tiles."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from fabricate.duotone.duotone import Duotone
 
 @dataclass(frozen=True)
 class RegionFacts:
-    """Topology of one colour: connected components, Euler characteristic, handles in all."""
+    """Topology of one region: connected components, Euler characteristic, handles in all."""
 
     components: int
     euler_characteristic: int
@@ -24,37 +24,45 @@ class RegionFacts:
 
 @dataclass(frozen=True)
 class Certificate:
-    """What was counted, and whether it is a duotone.
+    """What was counted, and whether it is a duotone or a multitone.
 
     Attributes
     ----------
     curves : int
-        Closed curves between the colours; 1 is right.
-    yellow, blue : RegionFacts
-        Each must be one component; both are bounded by the same curves.
+        Closed curves between the regions: one less than there are regions is right.
+    regions : tuple of RegionFacts
+        From yellow over the bands of a multitone to blue; each must be one component.
     genus : int
-        Of the whole surface: chi adds up over the regions, so with one boundary circle each,
-        (1 - 2 g_yellow) + (1 - 2 g_blue) = 2 - 2 g and the handles share the genus.
+        Of the whole surface: chi adds up over the regions, so with one boundary circle for yellow and for blue and
+        two for each band, (1 - 2 g_yellow) + (1 - 2 g_blue) = 2 - 2 g and the handles share the genus. Bands have none.
     """
 
     curves: int
-    yellow: RegionFacts
-    blue: RegionFacts
+    regions: tuple[RegionFacts, ...]
     genus: int
 
     @property
+    def yellow(self) -> RegionFacts:
+        """The first region."""
+        return self.regions[0]
+
+    @property
+    def blue(self) -> RegionFacts:
+        """The last region."""
+        return self.regions[-1]
+
+    @property
     def holds(self) -> bool:
-        """One curve, two connected regions, and handles that add up to the genus."""
+        """One curve between neighbouring regions, each of them connected, and handles that add up to the genus."""
         return (
-            self.curves == 1
-            and self.yellow.components == 1
-            and self.blue.components == 1
-            and self.yellow.handles + self.blue.handles == self.genus
+            self.curves == len(self.regions) - 1
+            and all(region.components == 1 for region in self.regions)
+            and sum(region.handles for region in self.regions) == self.genus
         )
 
 
 def certified(duotone: Duotone) -> Certificate:
-    """Count curves, components and Euler characteristics; nothing is assumed of how the tiles were chosen.
+    """Count curves, components and Euler characteristics of both colours; nothing is assumed of how the tiles were chosen.
 
     The part of a region round one of its points is connected; a tile connects two of these parts where it is
     joined. The classes are the regions' connected components.
@@ -63,7 +71,7 @@ def certified(duotone: Duotone) -> Certificate:
     labels, is_yellow = _point_components(duotone), duotone.quads.yellow
     yellow = _facts(duotone, labels[is_yellow], is_yellow, duotone.joined, curves)
     blue = _facts(duotone, labels[~is_yellow], ~is_yellow, ~duotone.joined, curves)
-    return Certificate(curves, yellow, blue, duotone.quads.genus)
+    return Certificate(curves, (yellow, blue), duotone.quads.genus)
 
 
 def _point_components(duotone: Duotone) -> Indices:

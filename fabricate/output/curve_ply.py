@@ -1,7 +1,8 @@
-"""A closed curve as a PLY file of vertices and edges."""
+"""Closed curves as a PLY file of vertices and edges."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from fabricate.output.files import write_whole
 
 HEADER = """ply
 format binary_little_endian 1.0
-comment one closed curve, millimetres, z up
+comment {curves}, millimetres, z up
 element vertex {count}
 property double x
 property double y
@@ -23,20 +24,23 @@ end_header
 """
 
 
-def write_curve(path: Path, polyline: Floats) -> None:
-    """Write (n, 3) points, mm, as a closed curve: an edge from each to the next, and from last to first.
+def write_curves(path: Path, polylines: Sequence[Floats]) -> None:
+    """Write points, (n, 3) mm for each of one or more closed curves: an edge from each to the next, and last to first.
 
     Raises
     ------
     ValueError
-        If the shape differs or there are fewer than three points.
+        If the shape differs, there are no curves, or one has fewer than three points.
     OutputError
         If the file can't be written.
     """
-    points = frozen(polyline, np.float64, (None, 3))
-    if len(points) < 3:
-        raise ValueError(f"expected a closed curve of at least 3 points, found {len(points)}")
-    start = np.arange(len(points))
-    edges = np.stack([start, np.roll(start, -1)], axis=1)
-    header = HEADER.format(count=len(points)).encode("ascii")
+    curves = [frozen(polyline, np.float64, (None, 3)) for polyline in polylines]
+    fewest = min(map(len, curves), default=0)
+    if fewest < 3:
+        raise ValueError(f"expected closed curves of at least 3 points, found {len(curves)}, the shortest of {fewest}")
+    points = np.concatenate(curves)
+    starts = np.split(np.arange(len(points)), np.cumsum([len(curve) for curve in curves])[:-1])
+    edges = np.concatenate([np.stack([start, np.roll(start, -1)], axis=1) for start in starts])
+    said = "one closed curve" if len(curves) == 1 else f"{len(curves)} closed curves, one after the other"
+    header = HEADER.format(curves=said, count=len(points)).encode("ascii")
     write_whole(path, header + points.astype("<f8").tobytes() + edges.astype("<i4").tobytes())

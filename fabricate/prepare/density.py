@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -41,14 +43,14 @@ def finest_tile(
     clearance: float,
     *,
     extent: float,
-    arc: float = 0.5,
+    rings: Sequence[float] = (0.5,),
     margin: float = NARROWING,
 ) -> Density:
     """Return the finest tile whose necks a process can print.
 
     On a flat square tile of side s the narrower colour has a neck of (sqrt 2 - 2 max(r, 1 - r)) s where it is joined
-    across the tile (Garigipati 2013, 3.3), 0.414 s at r = 1/2. It has to leave the smallest feature when the
-    clearance is taken off.
+    across the tile (Garigipati 2013, 3.3), 0.414 s at r = 1/2; bands between several rings are as wide as these are
+    apart. The narrowest has to leave the smallest feature when the clearance is taken off.
 
     Parameters
     ----------
@@ -58,22 +60,22 @@ def finest_tile(
         Gap between facing walls, mm; half of it is taken off either side of a neck.
     extent : float
         Longest side of the body, mm: with tiles larger than 1/8 of it there would be no pattern.
-    arc : float
-        Position r of the curve on tile edges, between 0.293 and 0.707.
+    rings : sequence of float
+        Positions r of the curves on tile edges, between 0.293 and 0.707.
     margin : float
         How much wider than the narrowest neck that prints the neck of a tile of this size shall be.
 
     Raises
     ------
     PrepareError
-        If the arc leaves one colour without a neck, or a length is not positive (a clearance may be 0).
+        If the rings leave one colour without a neck or one band without a width, or a length is not positive (a clearance may be 0).
     """
     if not (feature > 0.0 and clearance >= 0.0 and extent > 0.0 and margin > 0.0):
         raise PrepareError(
             "the finest tile needs a positive feature, extent and margin and a clearance of 0 or more, found "
             f"{feature:g} mm, {extent:g} mm, {margin:g} and {clearance:g} mm"
         )
-    neck = neck_share(arc)
+    neck = neck_share(rings)
     largest = extent / FEWEST_TILES
     finest = margin * (feature + clearance) / neck
     if finest > largest:
@@ -90,18 +92,24 @@ def finest_tile(
     )
 
 
-def neck_share(arc: float) -> float:
-    """Return the neck of the narrower colour across a square tile of side 1, from the position of its arcs.
+def neck_share(rings: Sequence[float]) -> float:
+    """Return the narrowest neck or band on a square tile of side 1, from the positions of its arcs.
 
     Raises
     ------
     PrepareError
-        If opposite arcs meet, which is where the position is not between 0.293 and 0.707.
+        If opposite arcs meet, which is where a position is not between 0.293 and 0.707, or rings do not increase.
     """
-    share = float(np.sqrt(2.0)) - 2.0 * max(arc, 1.0 - arc)
+    share = float(np.sqrt(2.0)) - 2.0 * max(*rings, *(1.0 - ring for ring in rings))
     if not share > 0.0:
-        raise PrepareError(f"pattern.arc must be between 0.293 and 0.707 for both colours to have necks, found {arc:g}")
-    return share
+        found = ", ".join(f"{ring:g}" for ring in rings)
+        raise PrepareError(
+            f"pattern.arc must be between 0.293 and 0.707 for both colours to have necks, found {found}"
+        )
+    narrowest = min([share, *(outer - inner for inner, outer in pairwise(rings))])
+    if not narrowest > 0.0:
+        raise PrepareError("pattern.rings must increase for bands to have a width")
+    return narrowest
 
 
 def too_fine(mesh: PolygonMesh, *, size: float, tile_size: float) -> bool:

@@ -1,7 +1,8 @@
-"""Clearance: how far each part's own copy of the curve moves aside, along the rays of the tiles.
+"""Clearance: how far each part's own copy of a curve moves aside, along the rays of the tiles.
 
-Facing walls end up `clearance` apart when the yellow copy moves to one side and the blue one to the other, half of it
-each, measured across the curve. Where one side has little room, the other gives more. Where the copies still come too
+Facing walls end up `clearance` apart when the copy of the part on the left of the curve moves to the left and the other
+one to the right, half of it each, measured across the curve. Yellow and blue have room as far as the rays go, a band as
+far as its middle. Where one side has little room, the other gives more. Where the copies still come too
 near each other, as in the bends of small or slanted tiles, they are pushed further until they do not. Moving along rays
 keeps every point on the surface and can't fold it (see `surface.template`).
 """
@@ -13,9 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
+from fabricate.duotone.region_names import region_names
 from fabricate.errors import SolidError
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.neck import tile_necks
+from fabricate.surface.neck import band_widths, tile_necks
 from fabricate.triangles.normals import unit
 
 ROOMY = 2.0
@@ -44,21 +46,21 @@ SMOOTHING = 4
 
 
 class RaySides(NamedTuple):
-    """The halves of the rays on either side of the curve, each from the curve outwards, (c, m + 1, 3) float, mm."""
+    """The half-rays on either side of a curve, each from the curve outwards, (c, l + 1, 3) float, mm."""
 
-    yellow: Floats
-    blue: Floats
+    left: Floats
+    right: Floats
 
 
 class Shares(NamedTuple):
-    """How much of its half-ray each copy of the curve moves along, between 0 and 0.95, (c,) float."""
+    """How much of its half-ray each copy of a curve moves along, between 0 and 0.95, (c,) float."""
 
-    yellow: Floats
-    blue: Floats
+    left: Floats
+    right: Floats
 
 
 def check_necks(surface: CutSurface, *, clearance: float) -> None:
-    """Raise an error if the clearance, mm, leaves nothing of a quarter of the necks.
+    """Raise an error if the clearance, mm, leaves nothing of a quarter of the necks, or of a band in as many tiles.
 
     Half of the tiles are joined by either colour, so that is about half of the narrower colour's necks.
 
@@ -73,23 +75,30 @@ def check_necks(surface: CutSurface, *, clearance: float) -> None:
             f"{neck:.3g} mm wide; ask for a smaller solid.clearance, a larger pattern.tile_size "
             "or a pattern.arc nearer to 0.5"
         )
+    names = region_names(len(surface.rings) + 1)[1:-1]
+    for name, spacing, (widths, _) in zip(names, np.diff(surface.rings), band_widths(surface), strict=True):
+        width = float(np.quantile(widths, 0.25))
+        if clearance >= width:
+            raise SolidError(
+                f"a clearance of {clearance:g} mm leaves nothing of {name} in a quarter of the tiles, where it is at "
+                f"most {width:.3g} mm wide; ask for a smaller solid.clearance, a larger pattern.tile_size or "
+                f"pattern.rings that are more than {spacing * clearance / width:.3g} apart there, not {spacing:.3g}"
+            )
 
 
-def ray_sides(surface: CutSurface, points: Floats) -> RaySides:
-    """Return the half-rays through each curve point when the surface's points lie at `points`, (n, 3)."""
-    rays = points[surface.curve_rays]
-    middle = rays.shape[1] // 2
-    return RaySides(rays[:, middle:], rays[:, middle::-1])
+def ray_sides(surface: CutSurface, points: Floats) -> tuple[RaySides, ...]:
+    """Return the half-rays through the points of each curve when the surface's points lie at `points`, (n, 3)."""
+    return tuple(RaySides(points[left], points[right]) for left, right in surface.half_rays)
 
 
 def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearance: Floats) -> Shares:
-    """Return how far to move each copy, for the clearance at each curve point, (c,) mm.
+    """Return how far to move both copies of a curve, for the clearance at each of its points, (c,) mm.
 
     `normals` and `down`, (c, 3), are unit vectors at the curve's points: the surface's, and the way the wall
     goes from there. Where even the farthest move is not enough, the gap stays smaller; the tests of the
     parts find it.
     """
-    wanted = clearance / _uprightness(sides.yellow[:, 0], normals, down)
+    wanted = clearance / _uprightness(sides.left[:, 0], normals, down)
     lengths = [_length(side) for side in sides]
     slants = _slants(sides, normals)
     room = np.maximum(np.stack([length * slant for length, slant in zip(lengths, slants, strict=True)]), 1e-9)
@@ -137,11 +146,11 @@ def _length(side: Floats) -> Floats:
 
 def _slants(sides: RaySides, normals: Floats) -> tuple[Floats, Floats]:
     """Return for each side the smaller cosine between its rays and the conormals of the neighbouring segments."""
-    curve = sides.yellow[:, 0]
+    curve = sides.left[:, 0]
     after = unit(np.cross(normals, np.roll(curve, -1, axis=0) - curve))
     before = unit(np.cross(normals, curve - np.roll(curve, 1, axis=0)))
     slants = []
-    for side, sign in ((sides.yellow, 1.0), (sides.blue, -1.0)):
+    for side, sign in ((sides.left, 1.0), (sides.right, -1.0)):
         first = sign * unit(side[:, 1] - side[:, 0])
         cosine = np.minimum(np.einsum("ij,ij->i", first, after), np.einsum("ij,ij->i", first, before))
         slants.append(np.clip(cosine, STEEPEST, 1.0))
@@ -149,9 +158,9 @@ def _slants(sides: RaySides, normals: Floats) -> tuple[Floats, Floats]:
 
 
 def moved_copies(sides: RaySides, shares: Shares, numbers: Indices) -> tuple[Floats, Floats]:
-    """Return where yellow's and blue's copies of some curve points come to lie, (k, 3) float each, mm."""
-    yellow, blue = (along(side[numbers], share[numbers, None])[:, 0] for side, share in zip(sides, shares, strict=True))
-    return yellow, blue
+    """Return where the left and the right part's copies of some curve points come to lie, (k, 3) float each, mm."""
+    left, right = (along(side[numbers], share[numbers, None])[:, 0] for side, share in zip(sides, shares, strict=True))
+    return left, right
 
 
 def too_near(copies: tuple[Floats, Floats], least: Floats, *, suspects: Indices) -> Mask:

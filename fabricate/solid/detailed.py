@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +22,9 @@ SHARE_WITHIN = 0.95
 bends sharply, at thin parts and between uneven cells, and there it is not what is made."""
 
 
-def detailed_cut(duotone: Duotone, onto: TriangleMesh, *, arc: float, tolerance: float, clearance: float) -> CutSurface:
+def detailed_cut(
+    duotone: Duotone, onto: TriangleMesh, *, rings: Sequence[float], tolerance: float, clearance: float
+) -> CutSurface:
     """Cut the limit surface of a duotone, and carry it onto another surface of the same shape and place.
 
     Fine enough for the chord tolerance of the smooth surface and for the other's detail; all in mm.
@@ -29,17 +32,17 @@ def detailed_cut(duotone: Duotone, onto: TriangleMesh, *, arc: float, tolerance:
     Raises
     ------
     PatternError
-        If the arc position is out of range, or the tolerance would need too many triangles.
+        If the rings are out of range or do not increase, or the tolerance would need too many triangles.
     SolidError
         If the clearance does not fit, or the smooth surface crosses itself beyond mending.
     """
     side = typical_side(duotone.quads)
     resolution = max(
         resolution_for(
-            duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance, share=SHARE_WITHIN, worst=np.inf
+            duotone, LimitSurface.of(duotone.quads), rings=rings, tolerance=tolerance, share=SHARE_WITHIN, worst=np.inf
         ),
         detail_resolution(onto.points, onto.triangles, tile_side=side),
     )
-    surface = settled(duotone, clearance=clearance, arc=arc, resolution=resolution)
+    surface = settled(duotone, clearance=clearance, rings=rings, resolution=resolution)
     found = carried(surface.points, surface.normals, surface.triangles, onto.points, onto.triangles)
     return replace(surface, points=found.points, base=found.base, normals=found.base_normals)

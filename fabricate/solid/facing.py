@@ -1,4 +1,4 @@
-"""The facing walls of the two parts: how far apart they are between two layers."""
+"""The facing walls of two parts along a curve: how far apart they are between two layers."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ DOWN_WALL = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Where edges and diagonals are measured, from the upper end to the lower one."""
 
 
-def wall_gaps(yellow: Sequence[Floats], blue: Sequence[Floats]) -> Floats:
+def wall_gaps(left: Sequence[Floats], right: Sequence[Floats]) -> Floats:
     """Return the smallest distance between the facing walls beside each curve point, (c,) float, mm.
 
-    `yellow` and `blue` hold each part's copies of the curve, (c, 3) each, from the outside in. Each wall is measured
+    `left` and `right` hold each part's copies of the curve, (c, 3) each, from the outside in. Each wall is measured
     along the edges down it and along the diagonals of its cells, against the other wall's triangles; a diagonal
     counts for the points at both ends of its cell.
     """
-    gaps = np.full(len(yellow[0]), np.inf)
-    for own, other in ((yellow, blue), (blue, yellow)):
+    gaps = np.full(len(left[0]), np.inf)
+    for own, other in ((left, right), (right, left)):
         tree = _wall_tree(other)
         for upper, lower in itertools.pairwise(own):
             down = [upper + share * (lower - upper) for share in DOWN_WALL]

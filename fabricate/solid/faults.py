@@ -26,7 +26,7 @@ def crossing_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mas
 
     Crossings among triangles of the outer surface alone are left out: no inner surface cures those.
     """
-    triangles = np.concatenate([assembly.yellow, assembly.blue])
+    triangles = np.concatenate(assembly.bodies)
     if clearance == 0.0:  # the parts share their walls: look at each of those once
         triangles = triangles[np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]]
     triangles = triangles[_around(assembly, triangles, moved, reach=0.0)]
@@ -41,16 +41,16 @@ def near_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
     Only near `moved` points, (n,) bool. Each part is measured at its points and along its edges. Places where the
     outer surfaces themselves are that near are left out: no inner surface cures those.
     """
-    triangles = np.concatenate([assembly.yellow, assembly.blue])
+    triangles = np.concatenate(assembly.bodies)
     around = _around(assembly, triangles, moved, reach=clearance)
-    yellow = triangles[around[around < len(assembly.yellow)]]
-    blue = triangles[around[around >= len(assembly.yellow)]]
-    if not len(yellow) or not len(blue):
-        return np.zeros_like(moved)
+    body = np.repeat(np.arange(len(assembly.bodies)), [len(each) for each in assembly.bodies])[around]
     least = GAP_SHARE * clearance
     outer = _outer(assembly, clearance)
-    near = []
-    for own, other in ((yellow, blue), (blue, yellow)):
+    near = [np.zeros(0, dtype=np.int64)]
+    for number in range(len(assembly.bodies)):
+        own, other = triangles[around[body == number]], triangles[around[body != number]]
+        if not len(own) or not len(other):
+            continue
         tree = SearchTree.of(assembly.points, other)
         numbers = np.unique(own)
         distance = np.full(len(assembly.points), np.inf)
@@ -95,7 +95,8 @@ def _surface_points(assembly: Assembly, numbers: Indices) -> Mask:
 
 
 def _outer(assembly: Assembly, clearance: float) -> Mask:
-    """Return which numbers lie on the outer layer: block 0, and with a clearance blue's copy in block 2."""
+    """Return which numbers lie on the outer layer: block 0, and with a clearance every second one up to blue's."""
     block = np.arange(len(assembly.points)) // assembly.surface_points
-    outer: Mask = (block == 0) | ((block == 2) & (clearance > 0.0))
+    copies = len(assembly.bodies) if clearance > 0.0 else 1
+    outer: Mask = (block % 2 == 0) & (block < 2 * copies)
     return outer

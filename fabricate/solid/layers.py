@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,47 +19,46 @@ NEAR = 0.01
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """Where the surface's points lie at one depth, once for each part: (n, 3) float, mm.
+    """Where the surface's points lie at one depth, once for each part, by its region: `copies`, (n, 3) float each, mm.
 
-    The two copies differ by the clearance along the curve, and less and less away from it.
+    Copies of neighbouring regions differ by the clearance along the curve between them, and less and less away from it.
     """
 
-    yellow: Floats
-    blue: Floats
+    copies: tuple[Floats, ...]
 
 
-def layer_shares(surface: CutSurface, points: Floats, down: Floats, *, clearance: Floats) -> Shares:
-    """Return how far the copies of the curve move along their rays to be `clearance` apart, (c,) mm, at `points`.
+def layer_shares(surface: CutSurface, points: Floats, down: Floats, *, clearance: Floats) -> tuple[Shares, ...]:
+    """Return how far the copies of each curve move along their rays to be `clearance` apart, (k, c) mm, at `points`.
 
     `down`, (n, 3), are unit vectors along the wall under each of the points, (n, 3).
     """
-    normals = vertex_normals(points, surface.triangles)[surface.curve]
-    return clearance_shares(ray_sides(surface, points), normals, down[surface.curve], clearance=clearance)
+    normals = vertex_normals(points, surface.triangles)
+    return tuple(
+        clearance_shares(sides, normals[curve], down[curve], clearance=wanted)
+        for sides, curve, wanted in zip(ray_sides(surface, points), surface.curves, clearance, strict=True)
+    )
 
 
 def shares_near(upper: Shares, lower: Shares, *, nearness: Floats) -> Shares:
-    """Return the shares of a lower layer drawn to those of the upper one by its nearness, (c,) from 0 to 1.
+    """Return the shares of a curve on a lower layer drawn to those on the upper one by its nearness, (c,) from 0 to 1.
 
     Where two layers lie close together their copies must move alike, or they cut through each other in bends.
     """
     return Shares(*(own + nearness * (above - own) for above, own in zip(upper, lower, strict=True)))
 
 
-def layer(surface: CutSurface, points: Floats, shares: Shares) -> Layer:
-    """Return the two copies of the surface moved to `points`, (n, 3) mm, apart by what the shares say.
+def layer(surface: CutSurface, points: Floats, shares: Sequence[Shares]) -> Layer:
+    """Return the copies of the surface moved to `points`, (n, 3) mm, apart by what the shares of each curve say.
 
-    In each copy the curve has moved along its rays, and the rest of the rays has closed up behind it.
+    In each copy the curves round its region have moved into it along their rays, and the rest of the half-rays has
+    closed up behind them.
     """
-    sides = ray_sides(surface, points)
-    rays = surface.curve_rays
-    middle = rays.shape[1] // 2
-    numbers = (rays[:, middle:], rays[:, middle::-1])
-    copies = []
-    for side, share, number in zip(sides, shares, numbers, strict=True):
-        copy = points.copy()
-        copy[number] = _closed_up(side, share)
-        copies.append(copy)
-    return Layer(*copies)
+    copies = tuple(points.copy() for _ in range(len(shares) + 1))
+    curves = zip(surface.half_rays, ray_sides(surface, points), shares, strict=True)
+    for number, (half_rays, sides, share) in enumerate(curves):
+        copies[number][half_rays.left] = _closed_up(sides.left, share.left)
+        copies[number + 1][half_rays.right] = _closed_up(sides.right, share.right)
+    return Layer(copies)
 
 
 def hugging(surface: CutSurface, upper: Layer, lower: Layer, *, depth: Floats) -> Layer:
@@ -71,17 +71,14 @@ def hugging(surface: CutSurface, upper: Layer, lower: Layer, *, depth: Floats) -
     if not near.any():
         return lower
     copies = []
-    for above, below, region in (
-        (upper.yellow, lower.yellow, surface.yellow),
-        (upper.blue, lower.blue, ~surface.yellow),
-    ):
-        straight = above + depth[:, None] * straight_down(above, surface.triangles[region])
+    for region, (above, below) in enumerate(zip(upper.copies, lower.copies, strict=True)):
+        straight = above + depth[:, None] * straight_down(above, surface.triangles[surface.regions == region])
         copies.append(below + near * (straight - below))
-    return Layer(*copies)
+    return Layer(tuple(copies))
 
 
 def _closed_up(side: Floats, share: Floats) -> Floats:
-    """Return the half-rays' points, (c, m + 1, 3), moved on so that they begin at `share` of the length."""
+    """Return the half-rays' points, (c, l + 1, 3), moved on so that they begin at `share` of the length."""
     steps = np.linalg.norm(np.diff(side, axis=1), axis=2)
     reached = np.concatenate([np.zeros((len(side), 1)), np.cumsum(steps, axis=1)], axis=1)
     fraction = reached / np.maximum(reached[:, -1:], np.finfo(float).tiny)

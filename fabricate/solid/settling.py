@@ -8,6 +8,7 @@ neighbourhood of such tiles stays where it was.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -34,27 +35,30 @@ ROUNDS, PATIENCE = 40, 4
 """Rounds of measuring and sliding, and rounds without progress before giving up."""
 
 
-def fitted_cut(duotone: Duotone, *, arc: float = 0.5, tolerance: float = 0.05, clearance: float = 0.0) -> CutSurface:
+def fitted_cut(
+    duotone: Duotone, *, rings: Sequence[float] = (0.5,), tolerance: float = 0.05, clearance: float = 0.0
+) -> CutSurface:
     """Cut the limit surface of a duotone as finely as `tolerance` asks for, with room for `clearance`; both mm.
 
-    `arc` is where the curve crosses tile sides, from their yellow ends, between 0.293 and 0.707.
+    `rings` says where curves cross tile sides, from their yellow ends, between 0.293 and 0.707: one position for a
+    duotone, several that increase for a multitone, whose curves run side by side.
 
     Raises
     ------
     PatternError
-        If the arc position is out of range, the tolerance would need too many triangles, or the duotone has
-        more than one curve.
+        If the rings are out of range or do not increase, the tolerance would need too many triangles, or the duotone
+        has more than one curve.
     SolidError
         If the clearance is as wide as necks are, or does not fit into more than a tenth of the tiles.
     """
-    resolution = resolution_for(duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance)
-    return settled(duotone, clearance=clearance, arc=arc, resolution=resolution)
+    resolution = resolution_for(duotone, LimitSurface.of(duotone.quads), rings=rings, tolerance=tolerance)
+    return settled(duotone, clearance=clearance, rings=rings, resolution=resolution)
 
 
-def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) -> CutSurface:
+def settled(duotone: Duotone, *, clearance: float, rings: Sequence[float], resolution: int) -> CutSurface:
     """Return the cut surface of the duotone, its tiles slid where the clearance, mm, does not fit."""
     quads = duotone.quads
-    surface = cut(duotone, LimitSurface.of(quads), arc=arc, resolution=resolution)
+    surface = cut(duotone, LimitSurface.of(quads), rings=rings, resolution=resolution)
     check_necks(surface, clearance=clearance)
     fewest, waited = len(duotone.joined) + 1, 0
     for _ in range(ROUNDS if clearance > 0.0 else 0):
@@ -68,20 +72,21 @@ def settled(duotone: Duotone, *, clearance: float, arc: float, resolution: int) 
         if not tight.any() or waited == PATIENCE:
             break
         quads = slid_tiles(quads, tight)
-        surface = cut(replace(duotone, quads=quads), LimitSurface.of(quads), arc=arc, resolution=resolution)
+        surface = cut(replace(duotone, quads=quads), LimitSurface.of(quads), rings=rings, resolution=resolution)
     return surface
 
 
 def tight_tiles(surface: CutSurface, *, clearance: float) -> Mask:
-    """Return the tiles, (t,) bool, in which copies of the curve cannot be moved `clearance` mm apart."""
-    count = len(surface.curve)
-    upright = surface.normals[surface.curve]
+    """Return the tiles, (t,) bool, in which copies of a curve cannot be moved `clearance` mm apart."""
+    curves = surface.curves
+    count = curves.shape[1]
     wanted, everywhere = np.full(count, clearance), np.arange(count)
     near: Mask = np.zeros(count, dtype=bool)
     for depth in (0.0, BENEATH):
-        sides = ray_sides(surface, surface.points - depth * surface.normals)
-        shares = clearance_shares(sides, upright, -upright, clearance=wanted)
-        near |= too_near(moved_copies(sides, shares, everywhere), ENOUGH * wanted, suspects=everywhere)
+        for curve, sides in zip(curves, ray_sides(surface, surface.points - depth * surface.normals), strict=True):
+            upright = surface.normals[curve]
+            shares = clearance_shares(sides, upright, -upright, clearance=wanted)
+            near |= too_near(moved_copies(sides, shares, everywhere), ENOUGH * wanted, suspects=everywhere)
     tight: Mask = np.zeros(len(surface.order) // 2, dtype=bool)
     tight[surface.order[near.reshape(len(surface.order), -1).any(axis=1)] // 2] = True
     return tight

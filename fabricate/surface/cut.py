@@ -1,12 +1,14 @@
-"""The cut: the limit surface tessellated so that the curve runs along its edges, and divided by colour."""
+"""The cut: the limit surface tessellated so that the curves run along its edges, and divided into regions."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
-from fabricate.arrays import Floats, Indices, Mask, frozen
+from fabricate.arrays import Floats, Indices, frozen
 from fabricate.duotone.curve import traced_arcs
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
@@ -15,16 +17,28 @@ from fabricate.surface.mitre import crease_sides, mitred_normals
 from fabricate.surface.template import TileTemplate, tile_template
 
 
+class HalfRays(NamedTuple):
+    """Point numbers on the rays through each point of a curve, each from the curve to where its regions are halved.
+
+    left : (c, l + 1) int, within the region of the lower number; right : (c, r + 1) int, within the other one.
+    """
+
+    left: Indices
+    right: Indices
+
+
 @dataclass(frozen=True, eq=False)
 class CutSurface:
-    r"""A closed triangle mesh whose triangles are yellow or blue, with their common boundary curve.
+    r"""A closed triangle mesh divided into regions, with the curves that are their common boundaries.
 
-    Both regions share the curve's points. The curve is closed and runs with yellow on its left, seen
-    from outside:
+    A duotone has one curve, with yellow, region 0, on its left and blue, region 1, on its right. k rings make k
+    curves that run side by side, and bands between them: regions 1 to k - 1, and blue is region k. Neighbouring
+    regions share the points of the curve between them. A curve is closed and runs with the region of the lower
+    number on its left, seen from outside:
 
-             yellow
-        c0 -->-- c1 -->-- c2          `curve` = [c0, c1, c2, ...], back to c0 at the end
-              blue
+             region j
+        c0 -->-- c1 -->-- c2          `curves[j]` = [c0, c1, c2, ...], back to c0 at the end
+             region j + 1
 
     Attributes
     ----------
@@ -33,14 +47,16 @@ class CutSurface:
         on either side, the direction that leads out of all of them alike.
     triangles : (m, 3) int
         Counter-clockwise seen from outside.
-    yellow : (m,) bool
-        Colour of each triangle.
-    curve : (c,) int
-        Point numbers along the curve.
-    rays : (2 t, n + 1, 2 m + 1) int
+    regions : (m,) int
+        Region of each triangle.
+    rays : (2 t, n + 1, l + 1) int
         Point numbers along the rays that cross each arc, by arc number (see `duotone.curve`): in the
-        direction of the curve, each ray from its blue to its yellow end with the curve in the middle. The
-        last ray of an arc is the first of the next.
+        direction of the curve, each ray of l steps from its blue to its yellow end. The last ray of an arc is the
+        first of the next.
+    crossings : (k,) int
+        At which step of its rays each curve lies. Midway between two curves is a step as well.
+    rings : (k,) float
+        Where each curve crosses tile sides, from their yellow ends.
     order : (2 t,) int
         Arc numbers along the curve.
     mitre : (n,) float
@@ -56,9 +72,10 @@ class CutSurface:
     points: Floats
     normals: Floats
     triangles: Indices
-    yellow: Mask
-    curve: Indices
+    regions: Indices
     rays: Indices
+    crossings: Indices
+    rings: Floats
     order: Indices
     mitre: Floats = field(default_factory=lambda: np.zeros(0))
     along: Floats = field(default_factory=lambda: np.zeros((0, 3)))
@@ -73,9 +90,10 @@ class CutSurface:
             ("points", np.float64, (None, 3)),
             ("normals", np.float64, (count, 3)),
             ("triangles", np.int64, (None, 3)),
-            ("yellow", np.bool_, (len(self.triangles),)),
-            ("curve", np.int64, (None,)),
+            ("regions", np.int64, (len(self.triangles),)),
             ("rays", np.int64, (None, None, None)),
+            ("crossings", np.int64, (None,)),
+            ("rings", np.float64, (len(self.crossings),)),
             ("order", np.int64, (len(self.rays),)),
             ("mitre", np.float64, (count,)),
             ("along", np.float64, (count, 3)),
@@ -85,26 +103,51 @@ class CutSurface:
 
     @property
     def arcs(self) -> Indices:
-        """(2 t, n + 1) int: point numbers along each arc, by arc number."""
-        return self.rays[:, :, self.rays.shape[2] // 2]
+        """(k, 2 t, n + 1) int: point numbers along each arc of each curve, by arc number."""
+        return np.moveaxis(self.rays[:, :, self.crossings], 2, 0)
 
     @property
     def curve_rays(self) -> Indices:
-        """(c, 2 m + 1) int: the ray through each point of the curve."""
+        """(c, l + 1) int: the ray through each point of the curves, which all have as many points."""
         return self.rays[self.order, :-1].reshape(-1, self.rays.shape[2])
 
+    @property
+    def curves(self) -> Indices:
+        """(k, c) int: point numbers along each curve, that at yellow first."""
+        return self.curve_rays.T[self.crossings]
 
-def cut(duotone: Duotone, limit: LimitSurface, *, arc: float, resolution: int) -> CutSurface:
-    """Tessellate the limit surface with tile templates of the given arc position and resolution.
+    @property
+    def half_rays(self) -> tuple[HalfRays, ...]:
+        """The rays on either side of each curve, as far as the middle of a band or the end in yellow or blue."""
+        rays, steps = self.curve_rays, self.crossings
+        middles = [rays.shape[1] - 1, *(steps[:-1] + steps[1:]) // 2, 0]
+        return tuple(
+            HalfRays(rays[:, step : left + 1], rays[:, right : step + 1][:, ::-1])
+            for step, left, right in zip(steps, middles, middles[1:], strict=False)
+        )
+
+
+def cut(duotone: Duotone, limit: LimitSurface, *, rings: Sequence[float], resolution: int) -> CutSurface:
+    """Tessellate the limit surface with tile templates of the given rings and resolution.
 
     Points on tile sides are shared by number, so there is no crack to weld.
+
+    Parameters
+    ----------
+    duotone : Duotone
+    limit : LimitSurface
+        Of the duotone's quads.
+    rings : sequence of float
+        Where the curves cross tile sides, from their yellow ends, between 0.293 and 0.707: one for a duotone.
+    resolution : int
+        Segments of an arc.
 
     Raises
     ------
     PatternError
-        If the tiles form more than one curve, or the arc position or the resolution is out of range.
+        If the tiles form more than one curve, or the rings or the resolution are out of range.
     """
-    templates = [tile_template(arc=arc, resolution=resolution, yellow_joined=kind) for kind in (False, True)]
+    templates = [tile_template(rings=rings, resolution=resolution, yellow_joined=kind) for kind in (False, True)]
     tiles = [np.flatnonzero(duotone.joined == kind) for kind in (False, True)]
     table = _point_numbers(duotone.quads, templates[0])
     size = int(table.max()) + 1
@@ -117,15 +160,15 @@ def cut(duotone: Duotone, limit: LimitSurface, *, arc: float, resolution: int) -
         for side in (0, 1):
             rays[2 * own + side] = table[own][:, template.rays[side]]
     order = traced_arcs(duotone)
-    middle = rays.shape[2] // 2
     mitred = mitred_normals(operator.normals(limit.control), crease_sides(duotone.quads, limit, templates[0], table))
     return CutSurface(
         operator.positions(limit.control),
         mitred.normals,
         np.concatenate([table[own][:, t.triangles].reshape(-1, 3) for own, t in zip(tiles, templates, strict=True)]),
-        np.concatenate([np.tile(t.yellow, len(own)) for own, t in zip(tiles, templates, strict=True)]),
-        rays[order, :-1, middle].ravel(),
+        np.concatenate([np.tile(t.regions, len(own)) for own, t in zip(tiles, templates, strict=True)]),
         rays,
+        templates[0].crossings,
+        np.array(rings),
         order,
         mitred.mitre,
         mitred.along,

@@ -1,12 +1,14 @@
-"""Necks: how narrow each colour becomes where it is joined across a tile."""
+"""Necks: how narrow each colour becomes where it is joined across a tile, and how narrow bands become."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
-from fabricate.arrays import Floats
+from fabricate.arrays import Floats, Indices
 from fabricate.duotone.catmull_clark import Subdivision, catmull_clark
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
@@ -24,66 +26,104 @@ CHUNK = 50_000
 
 @dataclass(frozen=True, eq=False)
 class NeckGauge:
-    """Measures the neck of every tile both ways it can be joined, again and again as control points move."""
+    """Measures the neck of every tile both ways it can be joined, again and again as control points move.
+
+    `rings` counts the arcs round a corner of a tile.
+    """
 
     refinement: Subdivision
     arcs: tuple[LimitOperator, ...]
+    rings: int
 
     @classmethod
-    def of(cls, quads: QuadMesh, *, arc: float) -> NeckGauge:
-        """Prepare for quads with this arc position; only their points may change.
+    def of(cls, quads: QuadMesh, *, rings: Sequence[float]) -> NeckGauge:
+        """Prepare for quads with arcs at these positions; only their points may change.
 
         Raises
         ------
         PatternError
-            If the arc position is out of range.
+            If the positions are out of range or do not increase.
         """
-        templates = [tile_template(arc=arc, resolution=COARSE, yellow_joined=kind) for kind in (True, False)]
+        templates = [tile_template(rings=rings, resolution=COARSE, yellow_joined=kind) for kind in (True, False)]
         uv = np.concatenate([template.uv[template.arcs.ravel()] for template in templates])
         limit, operators = LimitSurface.of(quads), []
         for begin in range(0, len(quads.tiles), CHUNK):
             tiles = np.arange(begin, min(begin + CHUNK, len(quads.tiles)))
             rows = np.arange(len(tiles) * len(uv)).reshape(len(tiles), len(uv))
             operators.append(limit.operator([Samples(tiles, uv, rows)], size=rows.size))
-        return cls(catmull_clark(quads), tuple(operators))
+        return cls(catmull_clark(quads), tuple(operators), len(rings))
 
     def necks(self, points: Floats) -> Floats:
         """Return the necks of each tile when it is yellow-joined and when it is blue-joined, (t, 2) float, mm.
 
-        Before clearance is taken off, for control points, (n, 3) float, mm.
+        Before clearance is taken off, for control points, (n, 3) float, mm; where one of the tile's bands is
+        narrower than its neck, the width of that band.
         """
         control = self.refinement.matrix @ points
-        return np.concatenate([_narrowest(operator.positions(control)) for operator in self.arcs])
+        return np.concatenate([_narrowest(operator.positions(control), self.rings) for operator in self.arcs])
 
 
-def _narrowest(places: Floats) -> Floats:
-    """Return the smallest distance between the two arcs of each tile in both states, (t, 2) float."""
-    arcs = places.reshape(-1, 2, 2, COARSE + 1, 3)
-    across = arcs[:, :, 0, :, None] - arcs[:, :, 1, None, :]
-    necks: Floats = np.linalg.norm(across, axis=4).min(axis=(2, 3))
-    return necks
+def _narrowest(places: Floats, rings: int) -> Floats:
+    """Return the smallest distance between arcs of each tile in both states, (t, 2) float.
+
+    That is between the two arcs of a ring, and between neighbouring rings.
+    """
+    arcs = places.reshape(-1, 2, rings, 2, COARSE + 1, 3)
+    facing = [(arcs[:, :, ring, 0], arcs[:, :, ring, 1]) for ring in range(rings)]
+    facing += [(arcs[:, :, ring, side], arcs[:, :, ring + 1, side]) for ring in range(rings - 1) for side in (0, 1)]
+    across = (first[:, :, :, None] - second[:, :, None, :] for first, second in facing)
+    return np.minimum.reduce([np.linalg.norm(each, axis=4).min(axis=(2, 3)) for each in across])
 
 
-def coarse_necks(duotone: Duotone, *, arc: float) -> Floats:
+def coarse_necks(duotone: Duotone, *, rings: Sequence[float]) -> Floats:
     """Return the width of each tile's neck, (t,) float, mm, before clearance is taken off, measured quickly.
+
+    Where a band is narrower it is that of the band.
 
     Raises
     ------
     PatternError
-        If the arc position is out of range.
+        If the positions of the arcs are out of range or do not increase.
     """
-    both = NeckGauge.of(duotone.quads, arc=arc).necks(duotone.quads.points)
+    both = NeckGauge.of(duotone.quads, rings=rings).necks(duotone.quads.points)
     necks: Floats = np.where(duotone.joined, both[:, 0], both[:, 1])
     return necks
 
 
 def tile_necks(surface: CutSurface) -> tuple[Floats, Floats]:
-    """Return the smallest distance between the two arcs of each tile, (t,) float, mm, and where, (t, 3).
+    """Return the smallest distance between the two arcs of a ring in each tile, (t,) float, mm, and where, (t, 3).
 
     It belongs to the colour that is joined across the tile, before clearance is taken off. On a flat square of side
-    s it is (sqrt 2 - 2 (1 - r)) s for yellow, (sqrt 2 - 2 r) s for blue (Garigipati 2013, 3.3).
+    s it is (sqrt 2 - 2 (1 - r)) s for yellow with its ring r, (sqrt 2 - 2 r) s for blue with its own (Garigipati
+    2013, 3.3).
     """
-    first, second = surface.points[surface.arcs[0::2]], surface.points[surface.arcs[1::2]]
+    across = [_nearest(surface, arcs[0::2], arcs[1::2]) for arcs in surface.arcs]
+    return _narrower(across)
+
+
+def band_widths(surface: CutSurface) -> tuple[tuple[Floats, Floats], ...]:
+    """Return for each band its width in each tile, (t,) float, mm, before clearance is taken off, and where, (t, 3).
+
+    On a flat square of side s that is (r' - r) s between neighbouring rings r and r'.
+    """
+    return tuple(
+        _narrower([_nearest(surface, inner[side::2], outer[side::2]) for side in (0, 1)])
+        for inner, outer in pairwise(surface.arcs)
+    )
+
+
+def _narrower(measured: Sequence[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
+    """Return the smallest of several measures of each tile, and its place."""
+    width, place = measured[0]
+    for other, elsewhere in measured[1:]:
+        place = np.where((other < width)[:, None], elsewhere, place)
+        width = np.minimum(width, other)
+    return width, place
+
+
+def _nearest(surface: CutSurface, first_arcs: Indices, second_arcs: Indices) -> tuple[Floats, Floats]:
+    """Return the smallest distance between arcs, (t, n + 1) point numbers each, (t,), and where, (t, 3)."""
+    first, second = surface.points[first_arcs], surface.points[second_arcs]
     best = np.full(len(first), np.inf)
     place = np.zeros((len(first), 3))
     for k in range(first.shape[1]):

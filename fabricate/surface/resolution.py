@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from fabricate.arrays import Floats, Indices
 from fabricate.duotone.duotone import Duotone
 from fabricate.errors import PatternError
 from fabricate.surface.limit import LimitSurface, Samples
-from fabricate.surface.template import TileTemplate, radial, tile_template
+from fabricate.surface.template import TileTemplate, ray_steps, tile_template
 
 MIN_RESOLUTION = 3
 """Below this the curve turns by more than 30 degrees at a point, and facing walls would lean on each other."""
@@ -28,7 +30,7 @@ def resolution_for(
     duotone: Duotone,
     limit: LimitSurface,
     *,
-    arc: float,
+    rings: Sequence[float],
     tolerance: float,
     share: float = SHARE_WITHIN,
     worst: float = WORST_FACTOR,
@@ -44,29 +46,29 @@ def resolution_for(
     PatternError
         If the tessellation would have more than four million triangles.
     """
-    coarse = chord_errors(duotone, limit, arc=arc, resolution=2)
+    coarse = chord_errors(duotone, limit, rings=rings, resolution=2)
     predicted = 2.0 * np.sqrt(float(np.quantile(coarse, share)) / tolerance)
     resolution = max(MIN_RESOLUTION, int(0.8 * predicted))
     while True:
-        triangles = _triangles(resolution) * len(duotone.joined)
+        triangles = _triangles(rings, resolution) * len(duotone.joined)
         if triangles > MAX_TRIANGLES:
             raise PatternError(
                 f"a tolerance of {tolerance:g} mm needs {triangles} triangles on the outer surface, more than "
                 f"{MAX_TRIANGLES}; ask for a larger solid.tolerance or a larger pattern.tile_size"
             )
-        errors = chord_errors(duotone, limit, arc=arc, resolution=resolution)
+        errors = chord_errors(duotone, limit, rings=rings, resolution=resolution)
         within = float(np.quantile(errors, share)) <= tolerance
         if within and float(errors.max()) <= worst * tolerance:
             return resolution
         resolution += 1
 
 
-def _triangles(resolution: int) -> int:
+def _triangles(rings: Sequence[float], resolution: int) -> int:
     """Return the number of triangles of one tile."""
-    return 2 * resolution * (4 * radial(resolution) - 1)
+    return 2 * resolution * (2 * sum(ray_steps(rings=rings, resolution=resolution)) - 1)
 
 
-def chord_errors(duotone: Duotone, limit: LimitSurface, *, arc: float, resolution: int) -> Floats:
+def chord_errors(duotone: Duotone, limit: LimitSurface, *, rings: Sequence[float], resolution: int) -> Floats:
     """Return the chord error at the middle of every template edge on every tile, flat, mm.
 
     It is how far the smooth surface, or on an arc the smooth curve, lies from the straight edge.
@@ -74,8 +76,8 @@ def chord_errors(duotone: Duotone, limit: LimitSurface, *, arc: float, resolutio
     errors = []
     for kind in (False, True):
         tiles = np.flatnonzero(duotone.joined == kind)
-        coarse = tile_template(arc=arc, resolution=resolution, yellow_joined=kind)
-        fine = tile_template(arc=arc, resolution=2 * resolution, yellow_joined=kind)
+        coarse = tile_template(rings=rings, resolution=resolution, yellow_joined=kind)
+        fine = tile_template(rings=rings, resolution=2 * resolution, yellow_joined=kind)
         ends, middles = _edges(coarse, fine)
         uv = np.concatenate([coarse.uv, middles])
         rows = np.arange(len(tiles) * len(uv)).reshape(len(tiles), len(uv))
@@ -92,11 +94,11 @@ def _edges(coarse: TileTemplate, fine: TileTemplate) -> tuple[Indices, Floats]:
     t = coarse.triangles
     ends = np.unique(np.sort(np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]), axis=1), axis=0)
     middles = coarse.uv[ends].mean(axis=1)
-    on_arc = np.stack([coarse.arcs[:, :-1].ravel(), coarse.arcs[:, 1:].ravel()], axis=1)
+    on_arc = np.stack([coarse.arcs[..., :-1].ravel(), coarse.arcs[..., 1:].ravel()], axis=1)
     on_arc.sort(axis=1)
     samples = len(coarse.uv)
     place = np.searchsorted(ends @ [samples, 1], on_arc @ [samples, 1])
-    middles[place] = fine.uv[fine.arcs[:, 1::2].ravel()]
+    middles[place] = fine.uv[fine.arcs[..., 1::2].ravel()]
     return ends, middles
 
 

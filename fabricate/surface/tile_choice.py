@@ -56,7 +56,7 @@ class TileWish:
         Gap between facing walls, mm.
     resized : bool
         Whether coarser own cells, or new ones, may take the place of tiles with narrower necks.
-    arc : float
+    rings : tuple of float
         Where the curve crosses tile sides.
     seed : int
         Of new cells.
@@ -73,7 +73,7 @@ class TileWish:
     neck: float
     clearance: float
     resized: bool
-    arc: float
+    rings: tuple[float, ...]
     seed: int
     cage: bool
     round_limit: bool
@@ -139,7 +139,7 @@ def _new(
     whole = _surface(mesh, wish)
     made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=wish.seed, progress=progress, store=store)
     progress("widening narrow tiles")
-    return replace(made, quads=widened(made.quads, whole, arc=wish.arc, neck=wish.neck))
+    return replace(made, quads=widened(made.quads, whole, rings=wish.rings, neck=wish.neck))
 
 
 def _instead_of(
@@ -183,8 +183,8 @@ def _slid(
     progress("widening narrow tiles")
     surface = smooth_surface(mesh, size=wish.size, round_limit=wish.round_limit)
     hopeful = [tiling for tiling in own if HOPELESS * typical_side(tiling.quads) >= wish.neck]
-    slid = [widened(tiling.quads, surface, arc=wish.arc, neck=wish.neck) for tiling in hopeful]
-    shares = [float((coarse_necks(grow(quads), arc=wish.arc) < wish.neck).mean()) for quads in slid]
+    slid = [widened(tiling.quads, surface, rings=wish.rings, neck=wish.neck) for tiling in hopeful]
+    shares = [float((coarse_necks(grow(quads), rings=wish.rings) < wish.neck).mean()) for quads in slid]
     if not shares:
         return None, 1.0
     least = min(shares)
@@ -203,21 +203,21 @@ def _surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:
 def _suited(own: tuple[Tiling, ...], wish: TileWish, grow: Callable[[QuadMesh], Duotone]) -> Tiling | None:
     """Return the own tiling to take, if any: of the size asked for it only has to have room for the clearance."""
     if wish.resized:
-        return _first_with_necks(own, wish.neck, wish.arc, grow)
+        return _first_with_necks(own, wish.neck, wish.rings, grow)
     if wish.cells == "as-is":
         return own[0]
-    without_room = coarse_necks(grow(own[0].quads), arc=wish.arc) <= wish.clearance
+    without_room = coarse_necks(grow(own[0].quads), rings=wish.rings) <= wish.clearance
     return own[0] if without_room.mean() <= MOST_NARROW else None
 
 
 def _first_with_necks(
-    tilings: tuple[Tiling, ...], neck: float, arc: float, grow: Callable[[QuadMesh], Duotone]
+    tilings: tuple[Tiling, ...], neck: float, rings: tuple[float, ...], grow: Callable[[QuadMesh], Duotone]
 ) -> Tiling | None:
     """Return the first tiling without a neck narrower than asked, mm, if there is one; a coarser one says so."""
     for tiling in tilings:
         if HOPELESS * typical_side(tiling.quads) < neck:
             continue
-        if coarse_necks(grow(tiling.quads), arc=arc).min() >= neck:
+        if coarse_necks(grow(tiling.quads), rings=rings).min() >= neck:
             note = f"tiles are larger: the cells are uneven, and the narrowest neck has to be {neck:.3g} mm wide"
             return tiling if tiling is tilings[0] else replace(tiling, notes=(note, *tiling.notes))
     return None

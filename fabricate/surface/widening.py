@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from fabricate.arrays import Mask
@@ -29,7 +31,7 @@ EMPHASIS = 6.0
 """Power of the push by which a pushed tile counts against its neighbours."""
 
 
-def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float) -> QuadMesh:
+def widened(quads: QuadMesh, onto: TriangleMesh, *, rings: Sequence[float], neck: float) -> QuadMesh:
     """Return tiles that slid over a surface until each can be joined, one way or the other, `neck` mm wide or more.
 
     Where a body is too thin for that, the tiling with the fewest narrow tiles is returned, of those whose smooth
@@ -41,12 +43,12 @@ def widened(quads: QuadMesh, onto: TriangleMesh, *, arc: float, neck: float) -> 
         Fitted to the surface.
     onto : TriangleMesh
         The surface, mm.
-    arc : float
-        Where the curve crosses tile sides.
+    rings : sequence of float
+        Where curves cross tile sides.
     neck : float
         Width that necks have to have before clearance is taken off, mm.
     """
-    gauge = NeckGauge.of(quads, arc=arc)
+    gauge = NeckGauge.of(quads, rings=rings)
 
     def narrow(tiles: QuadMesh) -> Mask:
         too_narrow: Mask = gauge.necks(tiles.points).max(axis=1) < goal
