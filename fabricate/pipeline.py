@@ -102,7 +102,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
     with complete_folder(out / name) as folder:
         watch.begin("files")
-        paths = write_sculpture(folder, made.parts, surface.points[surface.curves], name=name)
+        paths = write_sculpture(folder, made.parts, list(surface.points[surface.curves]), name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
         wanted = expectations(

@@ -102,7 +102,7 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
     assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm"}
     assert set(report["pattern"]) == {
         *("tiles", "tile_size_mm", "tile_quality", "curves", "regions", "curve_length_mm"),
-        *("area_share", "handles", "neck_mm"),
+        *("area_share", "handles", "neck_mm", "band_mm"),
     }
     assert set(report["pattern"]["tile_quality"]) == {
         *("aspect_median", "aspect_p95", "aspect_max", "size_ratio", "warnings"),
@@ -114,7 +114,7 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
             *("components", "watertight", "self_intersections", "wall_mm"),
         }
         assert set(part["wall_mm"]) == {"min", "median"}
-    assert set(report["fit"]) == {"clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm"}
+    assert set(report["fit"]) == {"clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm", "pairs"}
     assert set(report["fit"]["gap_mm"]) == {"min", "at"}
     assert set(report["fit"]["play_mm"]) == {"x", "y", "z", "rx", "ry", "rz"}
     assert all(set(check) == {"code", "ok", "skipped", "message", "where"} for check in report["checks"])

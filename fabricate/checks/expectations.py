@@ -27,8 +27,11 @@ class Neck(NamedTuple):
 
 
 class Band(NamedTuple):
-    """The narrowest place of the narrowest band: the band's name, its width there before clearance is taken off, mm,
-    where that is, and how far apart the rings are that it lies between, as a share of tile sides."""
+    """The narrowest place of the narrowest band.
+
+    name; width there before clearance is taken off, mm; where it is; and spacing, how far apart the rings are that it
+    lies between, as a share of tile sides.
+    """
 
     name: str
     width: float

@@ -14,13 +14,13 @@ from fabricate.config.takes import Takes
 LOWEST, HIGHEST = 0.293, 0.707
 """Between these positions opposite arcs of a tile do not meet."""
 
-RingDesign: TypeAlias = Literal["two", "three", "many"]
+RingDesign: TypeAlias = Literal["two", "three", "four"]
 
 RING_DESIGNS: Mapping[RingDesign, tuple[float, ...]] = MappingProxyType(
-    {"two": (0.5,), "three": (0.4, 0.6), "many": (0.37, 0.45, 0.51, 0.63)}
+    {"two": (0.5,), "three": (0.4, 0.6), "four": (0.37, 0.46, 0.63)}
 )
-"""Tiles of two, three and more regions of different widths, as in figure 4.22 of Garigipati 2013; the positions are
-ours, so that the narrowest place of a tile is as wide as can be: a third of the way that necks and bands share."""
+"""Tiles of two, three and more regions of different widths, as in figure 4.22 of Garigipati 2013. The positions are
+ours: on a square tile necks and bands share 0.414 of its side, and none has less than 0.2, or 0.09 of four regions."""
 
 
 def _as_tuple(value: object) -> object:

@@ -62,10 +62,10 @@ class Certificate:
 
 
 def certified(duotone: Duotone) -> Certificate:
-    """Count curves, components and Euler characteristics of both colours; nothing is assumed of how the tiles were chosen.
+    """Count curves, components and Euler characteristics of both colours.
 
-    The part of a region round one of its points is connected; a tile connects two of these parts where it is
-    joined. The classes are the regions' connected components.
+    Nothing is assumed of how the tiles were chosen. The part of a region round one of its points is connected; a tile
+    connects two of these parts where it is joined. The classes are the regions' connected components.
     """
     curves = count_curves(duotone)
     labels, is_yellow = _point_components(duotone), duotone.quads.yellow

@@ -68,7 +68,8 @@ def finest_tile(
     Raises
     ------
     PrepareError
-        If the rings leave one colour without a neck or one band without a width, or a length is not positive (a clearance may be 0).
+        If the rings leave one colour without a neck or one band without a width, or a length is not positive (a
+        clearance may be 0).
     """
     if not (feature > 0.0 and clearance >= 0.0 and extent > 0.0 and margin > 0.0):
         raise PrepareError(
@@ -103,9 +104,7 @@ def neck_share(rings: Sequence[float]) -> float:
     share = float(np.sqrt(2.0)) - 2.0 * max(*rings, *(1.0 - ring for ring in rings))
     if not share > 0.0:
         found = ", ".join(f"{ring:g}" for ring in rings)
-        raise PrepareError(
-            f"pattern.arc must be between 0.293 and 0.707 for both colours to have necks, found {found}"
-        )
+        raise PrepareError(f"pattern.arc must be between 0.293 and 0.707 for both colours to have necks, found {found}")
     narrowest = min([share, *(outer - inner for inner, outer in pairwise(rings))])
     if not narrowest > 0.0:
         raise PrepareError("pattern.rings must increase for bands to have a width")

@@ -161,8 +161,7 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
         levels = [surface.points, inner] + ([] if keeper is None else [inner + drop[:, None] * down])
         outer, inner_own, *floor_own = [layer_shares(surface, points, down, clearance=wanted) for points in levels]
         drawn = tuple(
-            shares_near(above, own, nearness=near)
-            for above, own, near in zip(outer, inner_own, nearness, strict=True)
+            shares_near(above, own, nearness=near) for above, own, near in zip(outer, inner_own, nearness, strict=True)
         )
         layers = [layer(surface, *each) for each in zip(levels, [outer, drawn, *floor_own], strict=True)]
         layers[1] = hugging(surface, layers[0], layers[1], depth=depth)
@@ -181,13 +180,12 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
 def _deeper(surface: CutSurface, layers: list[Layer], drop: Floats, *, keeper: int, clearance: float) -> Floats:
     """Return how far the floor has to lie below the inner points for the clearance under every other part, (n,) mm."""
     floor = layers[2].copies[keeper]
-    return np.maximum.reduce(
-        [
-            lowered(drop, ceiling, floor, surface.triangles[surface.regions == region], clearance=clearance)
-            for region, ceiling in enumerate(layers[1].copies)
-            if region != keeper
-        ]
-    )
+    deeper = drop
+    for region, ceiling in enumerate(layers[1].copies):
+        if region != keeper:
+            inlaid = surface.triangles[surface.regions == region]
+            deeper = np.maximum(deeper, lowered(drop, ceiling, floor, inlaid, clearance=clearance))
+    return deeper
 
 
 def _wall_gaps(surface: CutSurface, layers: list[Layer], keeper: int | None) -> Floats:
@@ -196,9 +194,8 @@ def _wall_gaps(surface: CutSurface, layers: list[Layer], keeper: int | None) -> 
     def wall_edges(region: int, curve: Indices) -> list[Floats]:
         return [each.copies[region][curve] for each in (layers if region == keeper else layers[:2])]
 
-    return np.stack(
-        [wall_gaps(wall_edges(number, curve), wall_edges(number + 1, curve)) for number, curve in enumerate(surface.curves)]
-    )
+    sides = [(wall_edges(number, curve), wall_edges(number + 1, curve)) for number, curve in enumerate(surface.curves)]
+    return np.stack([wall_gaps(left, right) for left, right in sides])
 
 
 def _widened(values: Floats) -> Floats:

@@ -26,12 +26,12 @@ def crossing_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mas
 
     Crossings among triangles of the outer surface alone are left out: no inner surface cures those.
     """
-    triangles = np.concatenate(assembly.bodies)
+    triangles: Indices = np.concatenate(assembly.bodies)
     if clearance == 0.0:  # the parts share their walls: look at each of those once
         triangles = triangles[np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]]
     triangles = triangles[_around(assembly, triangles, moved, reach=0.0)]
     pairs = crossing_triangles(assembly.points, triangles)
-    inside = ~_outer(assembly, clearance)[triangles].all(axis=1)
+    inside = ~np.all(_outer(assembly, clearance)[triangles], axis=1)
     return _surface_points(assembly, triangles[pairs[inside[pairs].any(axis=1)]].ravel())
 
 

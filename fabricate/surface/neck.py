@@ -72,7 +72,8 @@ def _narrowest(places: Floats, rings: int) -> Floats:
     facing = [(arcs[:, :, ring, 0], arcs[:, :, ring, 1]) for ring in range(rings)]
     facing += [(arcs[:, :, ring, side], arcs[:, :, ring + 1, side]) for ring in range(rings - 1) for side in (0, 1)]
     across = (first[:, :, :, None] - second[:, :, None, :] for first, second in facing)
-    return np.minimum.reduce([np.linalg.norm(each, axis=4).min(axis=(2, 3)) for each in across])
+    necks: Floats = np.minimum.reduce([np.linalg.norm(each, axis=4).min(axis=(2, 3)) for each in across])
+    return necks
 
 
 def coarse_necks(duotone: Duotone, *, rings: Sequence[float]) -> Floats:

@@ -6,7 +6,7 @@ from dataclasses import FrozenInstanceError
 
 import pytest
 
-from fabricate.checks.facts import ByColour, Gap, Spread
+from fabricate.checks.facts import Gap, Spread
 
 
 def test_equal_facts_are_equal() -> None:
@@ -16,4 +16,4 @@ def test_equal_facts_are_equal() -> None:
 
 def test_facts_cannot_be_edited() -> None:
     with pytest.raises(FrozenInstanceError):
-        ByColour(1, 2).yellow = 3  # type: ignore[misc]
+        Spread(1.0, 2.0).min = 3.0  # type: ignore[misc]

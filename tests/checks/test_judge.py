@@ -12,7 +12,7 @@ import pytest
 from manifold3d import Manifold
 
 from fabricate.checks import judge
-from fabricate.checks.expectations import Expectations, Neck, Spaces
+from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
 from fabricate.checks.facts import Gap
 from fabricate.checks.judge import Judgement, judged_parts, read_part
 from fabricate.errors import ReadError
@@ -42,6 +42,7 @@ EXPECTED = Expectations(
     genus={"red": 0, "blue": 1},
     process=PROCESSES["fdm"],
     neck=Neck(2.0, (1.0, 2.0, 3.0)),
+    band=Band("band-1", 2.0, (1.0, 2.0, 3.0), 0.2),
     spaces=Spaces(part_of("gap", WITH_GAP - PEG), part_of("shell", SLAB + WITH_GAP)),
 )
 
@@ -165,6 +166,7 @@ def test_a_faulty_part_fails_its_check(fault: Callable[[Part], Part], codes: set
         (replace(EXPECTED, spaces=Spaces(EXPECTED.spaces.gap, RED)), "fit.whole"),  # type: ignore[union-attr]
         (replace(EXPECTED, verdict="separable"), "fit.mobility"),
         (replace(EXPECTED, neck=Neck(1.1, (0.0, 0.0, 0.0))), "pattern.neck"),
+        (replace(EXPECTED, band=Band("band-1", 1.1, (0.0, 0.0, 0.0), 0.2)), "pattern.band"),
         (replace(EXPECTED, process=replace(PROCESSES["fdm"], wall_min=3.1)), "red.wall"),
         (replace(EXPECTED, process=replace(PROCESSES["fdm"], crack_closed=0.41)), "fit.process_gap"),
     ],
@@ -235,11 +237,34 @@ def test_three_parts_are_judged_pair_by_pair() -> None:
     found = judged_parts([RED, BLUE, green], replace(EXPECTED, spaces=None))
     codes = {check.code for check in found.checks}
     assert {"fit.red-blue.gap", "fit.red-green.gap", "fit.blue-green.overlap"} <= codes
-    assert failed(found) == set()
-    assert "fit.mobility" in skipped(found)
+    assert failed(found) == {"fit.blue-green.mobility"}
+    assert "fit.red-green.mobility" in skipped(found)
     assert found.fit is not None
     assert found.fit.gap_mm is not None
     assert found.fit.gap_mm.min == pytest.approx(GAP, rel=0.01)
+    verdicts = {name: pair.verdict for name, pair in found.fit.pairs.items()}
+    assert verdicts == {"red-blue": "captive", "red-green": None, "blue-green": "separable"}
+    assert (found.fit.verdict, found.fit.play_mm) == ("separable", None)
+
+
+def test_parts_in_a_row_of_captive_pairs_are_captive() -> None:
+    """The plate is the peg's head's head: a sleeve round the plate, out of which neither gets."""
+    outer = Manifold.cube((36, 36, 14), True) - Manifold.cube((30 + 2 * GAP, 30 + 2 * GAP, 8 + 2 * GAP), True)
+    sleeve = outer - Manifold.cube((24, 24, 20), True)
+    found = judged_parts([RED, BLUE, part_of("green", sleeve)], replace(EXPECTED, spaces=None))
+    assert found.fit is not None
+    assert {name: pair.verdict for name, pair in found.fit.pairs.items()} == {
+        "red-blue": "captive", "red-green": None, "blue-green": "captive",
+    }  # fmt: skip
+    assert found.fit.verdict == "captive"
+    assert failed(found) == set()
+
+
+def test_a_part_that_no_other_one_faces_leaves_the_verdict_open() -> None:
+    far = part_of("green", Manifold.cube((5, 5, 5)).translate((40, 0, 0)))
+    found = judged_parts([RED, BLUE, far], replace(EXPECTED, spaces=None))
+    assert found.fit is not None
+    assert found.fit.verdict is None
 
 
 def test_a_single_part_has_no_fit() -> None:

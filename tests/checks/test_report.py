@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from fabricate.checks.check import Check
 from fabricate.checks.facts import (
-    ByColour,
     FitFacts,
     Gap,
     MeshFacts,
+    PairFacts,
     PartFacts,
     PatternFacts,
     Play,
@@ -60,12 +60,13 @@ def report(
             curves=1,
             regions=2,
             curve_length_mm=123.456789,
-            area_share=ByColour(0.49, 0.51),
-            handles=ByColour(0, 1),
+            area_share={"yellow": 0.49, "blue": 0.51},
+            handles={"yellow": 0, "blue": 1},
             neck_mm=Spread(1.1, 2.2),
+            band_mm={},
         ),
         parts={"red": PART},
-        fit=FitFacts(0.3, gap, 0.0, "captive", play),
+        fit=FitFacts(0.3, gap, 0.0, "captive", play, {"red-blue": PairFacts(gap, 0.0, "captive", None)}),
         checks=checks,
         seconds={"read": seconds},
     )
@@ -103,6 +104,14 @@ def test_keys_are_those_of_the_contract() -> None:
         "overlap_mm3": 0,
         "verdict": "captive",
         "play_mm": {"x": 0.6, "y": 0.6, "z": 0.6, "rx": 1, "ry": 2, "rz": 3},
+        "pairs": {
+            "red-blue": {
+                "gap_mm": {"min": 0.29, "at": [1, 2, 3]},
+                "overlap_mm3": 0,
+                "verdict": "captive",
+                "play_mm": None,
+            }
+        },
     }
     assert found["seconds"] == {"read": 0.5}
 

@@ -41,6 +41,10 @@ def test_an_override_replaces_its_alternative(read: Read) -> None:
     fine = TORUS + '[pattern]\ntile_size = "3 mm"'
     assert read(fine, "pattern.levels=1").pattern == PatternConfig(levels=1)
     assert read(fine, "pattern.levels=1", "pattern.tile_size=9mm").pattern.tile_size == 9.0
+    assert read(TORUS, "pattern.rings=[0.4, 0.6]").pattern.positions == (0.4, 0.6)
+    bent = TORUS + "[pattern]\narc = 0.4"
+    assert read(bent, "pattern.rings=three").pattern.arc is None
+    assert read(bent, "pattern.rings=three", "pattern.arc=0.6").pattern.positions == (0.6,)
     assert isinstance(read('[source]\npath = "a.obj"', "source.shape=cube").source, CubeConfig)
     assert isinstance(read(TORUS, "source.path=a.obj").source, FileConfig)
 

@@ -22,3 +22,17 @@ def test_it_is_one_of_two(keys: dict[str, float | None]) -> None:
 def test_opposite_arcs_of_a_tile_do_not_meet(arc: float) -> None:
     with pytest.raises(ValidationError):
         PatternConfig(arc=arc)
+
+
+def test_rings_take_the_place_of_the_arc() -> None:
+    assert PatternConfig().positions == (0.5,)
+    assert PatternConfig(arc=0.4).positions == (0.4,)
+    pattern = PatternConfig.model_validate({"rings": [0.4, 0.6]})
+    assert (pattern.arc, pattern.positions) == (None, (0.4, 0.6))
+    assert PatternConfig.model_validate({"rings": [0.4]}).positions == (0.4,)
+
+
+@pytest.mark.parametrize("keys", [{"rings": [0.4, 0.6], "arc": 0.5}, {"rings": None}, {"arc": None}])
+def test_it_is_either_rings_or_an_arc(keys: dict[str, object]) -> None:
+    with pytest.raises(ValidationError, match="either rings or arc, not both"):
+        PatternConfig.model_validate(keys)

@@ -41,7 +41,11 @@ PATTERN = st.builds(
     tree=st.sampled_from(["random", "breadth-first", "depth-first"]),
     seed=st.integers(min_value=0),
     arc=st.floats(0.293, 0.707, exclude_min=True, exclude_max=True),
-) | st.builds(PatternConfig, levels=st.integers(0, 12))
+) | st.builds(
+    PatternConfig,
+    levels=st.integers(0, 12),
+    rings=st.sampled_from(["two", "three", "four"]) | st.floats(0.3, 0.7).map(lambda ring: (ring, ring + 0.005)),
+)
 SOLID = st.builds(
     SolidConfig,
     thickness=st.floats(0.1, 20),

@@ -19,7 +19,7 @@ from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.sizing import sized, tiled
 
-WISH = CurveWish(tree="random", seed=3, arc=0.5, neck=1.0)
+WISH = CurveWish(tree="random", seed=3, rings=(0.5,), neck=1.0)
 
 
 def ball() -> QuadMesh:

@@ -29,13 +29,13 @@ def slanted_torus() -> QuadMesh:
 
 
 QUADS = slanted_torus()
-NECKS = NeckGauge.of(QUADS, arc=0.5).necks(QUADS.points)
+NECKS = NeckGauge.of(QUADS, rings=(0.5,)).necks(QUADS.points)
 NECK = float(np.quantile(NECKS.min(axis=1), 0.4))
 
 
 def narrow(tree: Tree, seed: int) -> int:
-    found = wide_duotone(QUADS, tree=tree, seed=seed, arc=0.5, neck=NECK)
-    return int(np.count_nonzero(coarse_necks(found, arc=0.5) < NECK))
+    found = wide_duotone(QUADS, tree=tree, seed=seed, rings=(0.5,), neck=NECK)
+    return int(np.count_nonzero(coarse_necks(found, rings=(0.5,)) < NECK))
 
 
 @given(seed=st.integers(0, 999))
@@ -43,7 +43,7 @@ def narrow(tree: Tree, seed: int) -> int:
 def test_fewer_necks_are_narrow_than_in_any_tree(seed: int) -> None:
     plain = grown_duotone(QUADS, tree="random", seed=seed)
     hopeless = int(np.count_nonzero(NECKS.max(axis=1) < NECK))
-    without = int(np.count_nonzero(coarse_necks(plain, arc=0.5) < NECK))
+    without = int(np.count_nonzero(coarse_necks(plain, rings=(0.5,)) < NECK))
     assert without > hopeless + 10
     assert hopeless <= narrow("random", seed) < hopeless + 0.5 * (without - hopeless)
 
@@ -51,20 +51,20 @@ def test_fewer_necks_are_narrow_than_in_any_tree(seed: int) -> None:
 @given(seed=st.integers(0, 999))
 @settings(max_examples=20)
 def test_it_is_one_curve_still(seed: int) -> None:
-    certified(wide_duotone(QUADS, tree="random", seed=seed, arc=0.5, neck=NECK))
+    certified(wide_duotone(QUADS, tree="random", seed=seed, rings=(0.5,), neck=NECK))
 
 
 def test_seeds_still_differ() -> None:
-    first, second = (wide_duotone(QUADS, tree="random", seed=seed, arc=0.5, neck=NECK) for seed in (1, 2))
+    first, second = (wide_duotone(QUADS, tree="random", seed=seed, rings=(0.5,), neck=NECK) for seed in (1, 2))
     assert (first.joined != second.joined).mean() > 0.1
 
 
 def test_roomy_tiles_give_the_tree_of_the_seed() -> None:
-    roomy = wide_duotone(QUADS, tree="random", seed=5, arc=0.5, neck=0.9 * float(NECKS.min()))
+    roomy = wide_duotone(QUADS, tree="random", seed=5, rings=(0.5,), neck=0.9 * float(NECKS.min()))
     assert (roomy.joined == grown_duotone(QUADS, tree="random", seed=5).joined).all()
 
 
 @pytest.mark.parametrize("tree", ["breadth-first", "depth-first"])
 def test_other_trees_keep_their_shape(tree: Tree) -> None:
-    found = wide_duotone(QUADS, tree=tree, seed=3, arc=0.5, neck=NECK)
+    found = wide_duotone(QUADS, tree=tree, seed=3, rings=(0.5,), neck=NECK)
     assert (found.joined == grown_duotone(QUADS, tree=tree, seed=3).joined).all()

@@ -31,7 +31,7 @@ def assert_counts_of_the_graph(facts: RegionFacts, graph: nx.MultiGraph, curves:
 
 def measured(surface: CutSurface, *, yellow: bool) -> RegionFacts:
     """Count components and Euler characteristic on the triangles of one colour."""
-    triangles = surface.triangles[surface.yellow == yellow].tolist()
+    triangles = surface.triangles[(surface.regions == 0) == yellow].tolist()
     edges = nx.Graph([(t[k], t[k - 1]) for t in triangles for k in range(3)])
     components = nx.number_connected_components(edges)
     euler = edges.number_of_nodes() - edges.number_of_edges() + len(triangles)
@@ -70,7 +70,7 @@ def test_any_states_are_counted_as_discs_and_bands(duotone: Duotone) -> None:
 @given(duotone=quasi_trees())
 def test_counts_agree_with_the_triangles_of_the_cut(duotone: Duotone) -> None:
     found = certified(duotone)
-    surface = cut(duotone, LimitSurface.of(duotone.quads), arc=0.5, resolution=2)
+    surface = cut(duotone, LimitSurface.of(duotone.quads), rings=(0.5,), resolution=2)
     assert found.yellow == measured(surface, yellow=True)
     assert found.blue == measured(surface, yellow=False)
     assert found.holds
@@ -112,7 +112,8 @@ def test_a_curve_round_every_blue_point_is_no_duotone(name: str) -> None:
     assert found.yellow.handles == quads.genus
 
 
-GOOD = Certificate(1, RegionFacts(1, 1, 0), RegionFacts(1, -1, 1), 1)
+DISC, REST = RegionFacts(1, 1, 0), RegionFacts(1, -1, 1)
+GOOD = Certificate(1, (DISC, REST), 1)
 
 
 @pytest.mark.parametrize(
@@ -120,13 +121,18 @@ GOOD = Certificate(1, RegionFacts(1, 1, 0), RegionFacts(1, -1, 1), 1)
     [
         replace(GOOD, curves=2),
         replace(GOOD, curves=0),
-        replace(GOOD, yellow=RegionFacts(2, 1, 0)),
-        replace(GOOD, blue=RegionFacts(2, -1, 1)),
-        replace(GOOD, blue=RegionFacts(1, 1, 0)),
+        replace(GOOD, regions=(RegionFacts(2, 1, 0), REST)),
+        replace(GOOD, regions=(DISC, RegionFacts(2, -1, 1))),
+        replace(GOOD, regions=(DISC, RegionFacts(1, 1, 0))),
         replace(GOOD, genus=0),
         replace(GOOD, genus=2),
+        replace(GOOD, regions=(DISC, RegionFacts(1, 0, 0), REST)),
     ],
 )
 def test_each_number_can_spoil_it(wrong: Certificate) -> None:
     assert GOOD.holds
     assert not wrong.holds
+
+
+def test_a_multitone_has_a_curve_less_than_regions() -> None:
+    assert Certificate(2, (DISC, RegionFacts(1, 0, 0), REST), 1).holds

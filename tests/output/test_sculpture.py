@@ -31,7 +31,7 @@ PARTS = (ball("yellow", x=-6.0), ball("blue", x=6.0))
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     place = tmp_path_factory.mktemp("sculpture")
-    write_sculpture(place, PARTS, CURVE, name="balls")
+    write_sculpture(place, PARTS, [CURVE], name="balls")
     return place
 
 
@@ -41,7 +41,7 @@ def test_every_file_is_there(folder: Path) -> None:
 
 
 def test_stl_paths_are_returned_in_the_order_of_the_parts(tmp_path: Path) -> None:
-    paths = write_sculpture(tmp_path, PARTS, CURVE, name="balls")
+    paths = write_sculpture(tmp_path, PARTS, [CURVE], name="balls")
     assert paths == (tmp_path / "yellow.stl", tmp_path / "blue.stl")
 
 
@@ -65,12 +65,12 @@ def test_the_picture_shows_something(folder: Path) -> None:
 
 
 def test_same_parts_same_bytes(folder: Path, tmp_path: Path) -> None:
-    write_sculpture(tmp_path, PARTS, CURVE, name="balls")
+    write_sculpture(tmp_path, PARTS, [CURVE], name="balls")
     for name in FILES:
         assert (tmp_path / name).read_bytes() == (folder / name).read_bytes(), name
 
 
 def test_a_place_that_is_not_there_is_one_readable_line(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"yellow\.stl") as caught:
-        write_sculpture(tmp_path / "none", PARTS, CURVE, name="balls")
+        write_sculpture(tmp_path / "none", PARTS, [CURVE], name="balls")
     assert "\n" not in str(caught.value)

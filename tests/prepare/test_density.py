@@ -30,18 +30,30 @@ def arcs_apart(arc: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize("arc", [0.32, 0.45, 0.5, 0.61])
 def test_a_neck_is_the_smaller_distance_between_arcs(arc: float) -> None:
-    assert neck_share(arc) == pytest.approx(min(arcs_apart(arc)), abs=1e-5)
+    assert neck_share((arc,)) == pytest.approx(min(arcs_apart(arc)), abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("rings", "share"), [((0.4, 0.6), 0.2), ((0.37, 0.46, 0.63), 0.09), ((0.35, 0.6), 2**0.5 - 1.3)]
+)
+def test_several_rings_have_the_narrowest_of_necks_and_bands(rings: tuple[float, ...], share: float) -> None:
+    assert neck_share(rings) == pytest.approx(share)
+
+
+def test_rings_that_do_not_increase_leave_no_band() -> None:
+    with pytest.raises(PrepareError, match="must increase"):
+        neck_share((0.5, 0.5))
 
 
 @given(lengths, st.floats(0, 2), arcs)
 def test_a_tile_without_margin_has_just_the_neck(feature: float, clearance: float, arc: float) -> None:
-    made = finest_tile(feature, clearance, extent=1e6, arc=arc, margin=1.0)
-    assert made.tile_size * neck_share(arc) - clearance == pytest.approx(feature)
+    made = finest_tile(feature, clearance, extent=1e6, rings=(arc,), margin=1.0)
+    assert made.tile_size * neck_share((arc,)) - clearance == pytest.approx(feature)
 
 
 @given(lengths, lengths, arcs)
 def test_both_colours_count_the_same(feature: float, clearance: float, arc: float) -> None:
-    there, back = (finest_tile(feature, clearance, extent=1e6, arc=position) for position in (arc, 1 - arc))
+    there, back = (finest_tile(feature, clearance, extent=1e6, rings=(position,)) for position in (arc, 1 - arc))
     assert there.tile_size == pytest.approx(back.tile_size)
     assert there.tile_size >= finest_tile(feature, clearance, extent=1e6).tile_size * (1 - 1e-12)
 
@@ -62,7 +74,7 @@ def test_the_limit_is_named() -> None:
 @pytest.mark.parametrize("arc", [0.0, 0.29, 0.71, 1.0, float("nan")])
 def test_arcs_that_meet_leave_no_neck(arc: float) -> None:
     with pytest.raises(PrepareError, match=r"between 0\.293 and 0\.707"):
-        finest_tile(0.8, 0.3, extent=100.0, arc=arc)
+        finest_tile(0.8, 0.3, extent=100.0, rings=(arc,))
 
 
 @pytest.mark.parametrize(("feature", "clearance", "extent"), [(0, 0.3, 100), (0.8, -0.1, 100), (0.8, 0.3, 0)])

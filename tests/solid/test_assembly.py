@@ -61,7 +61,7 @@ def test_parts_and_gap_add_up_to_the_whole(surface: CutSurface, core: Core, clea
 
 
 def test_the_gap_is_as_wide_as_the_clearance(surface: CutSurface) -> None:
-    curve = surface.points[surface.curve]
+    curve = surface.points[surface.curves[0]]
     length = np.linalg.norm(np.roll(curve, -1, axis=0) - curve, axis=1).sum()
     assert volume(built(surface).spaces[0]) == pytest.approx(length * THICKNESS * CLEARANCE, rel=0.3)
 
@@ -84,9 +84,9 @@ def test_without_clearance_facing_triangles_are_the_same_reversed(surface: CutSu
         first = triangles.argmin(axis=1)[:, None]
         return set(map(tuple, np.take_along_axis(triangles, (first + np.arange(3)) % 3, axis=1).tolist()))
 
-    shared = cycles(made.yellow) & cycles(made.blue[:, ::-1])
-    covered = {"hollow": 0, "yellow": (~surface.yellow).sum(), "blue": surface.yellow.sum()}[core]
-    assert len(shared) == 2 * len(surface.curve) + covered
+    shared = cycles(made.bodies[0]) & cycles(made.bodies[1][:, ::-1])
+    covered = {"hollow": 0, "yellow": (surface.regions == 1).sum(), "blue": (surface.regions == 0).sum()}[core]
+    assert len(shared) == 2 * surface.curves.size + covered
 
 
 @pytest.mark.parametrize("core", CORES)
@@ -105,6 +105,6 @@ def test_the_outer_surface_is_the_limit_surface(surface: CutSurface) -> None:
 
 def test_it_is_frozen(surface: CutSurface) -> None:
     made = built(surface)
-    for array in (made.points, made.yellow, made.blue, made.gap, made.shell):
+    for array in (made.points, *made.bodies, made.gap, made.shell):
         with pytest.raises(ValueError, match="read-only"):
             array[0, 0] = 0

@@ -32,7 +32,7 @@ def surface() -> CutSurface:
 
 
 def sides_of(surface: CutSurface) -> RaySides:
-    return ray_sides(surface, surface.points)
+    return ray_sides(surface, surface.points)[0]
 
 
 @given(seed=seeds, steps=st.integers(1, 6), count=st.integers(1, 5))
@@ -59,36 +59,36 @@ def test_a_ray_of_no_length_stays_where_it_is() -> None:
 
 
 def test_both_sides_begin_on_the_curve(surface: CutSurface) -> None:
-    sides, curve = sides_of(surface), surface.points[surface.curve]
-    assert (sides.yellow[:, 0] == curve).all()
-    assert (sides.blue[:, 0] == curve).all()
+    sides, curve = sides_of(surface), surface.points[surface.curves[0]]
+    assert (sides.left[:, 0] == curve).all()
+    assert (sides.right[:, 0] == curve).all()
 
 
 def test_yellow_is_left_of_the_curve(surface: CutSurface) -> None:
-    sides, curve = sides_of(surface), surface.points[surface.curve]
-    left = np.cross(surface.normals[surface.curve], np.roll(curve, -1, axis=0) - curve)
-    assert (np.einsum("ij,ij->i", sides.yellow[:, 1] - curve, left) > 0).all()
-    assert (np.einsum("ij,ij->i", sides.blue[:, 1] - curve, left) < 0).all()
+    sides, curve = sides_of(surface), surface.points[surface.curves[0]]
+    left = np.cross(surface.normals[surface.curves[0]], np.roll(curve, -1, axis=0) - curve)
+    assert (np.einsum("ij,ij->i", sides.left[:, 1] - curve, left) > 0).all()
+    assert (np.einsum("ij,ij->i", sides.right[:, 1] - curve, left) < 0).all()
 
 
 def shares_of(surface: CutSurface, clearance: float) -> Shares:
-    normals = surface.normals[surface.curve]
-    wanted = np.full(len(surface.curve), clearance)
+    normals = surface.normals[surface.curves[0]]
+    wanted = np.full(surface.curves.shape[1], clearance)
     return clearance_shares(sides_of(surface), normals, -normals, clearance=wanted)
 
 
 @pytest.mark.parametrize("clearance", [0.1, 0.3, 0.6])
 def test_copies_are_the_clearance_apart(surface: CutSurface, clearance: float) -> None:
     shares = shares_of(surface, clearance)
-    yellow, blue = moved_copies(sides_of(surface), shares, np.arange(len(surface.curve)))
+    yellow, blue = moved_copies(sides_of(surface), shares, np.arange(surface.curves.shape[1]))
     apart = np.linalg.norm(yellow[:, None] - blue[None], axis=2).min(axis=1)
     assert apart.min() >= 0.97 * clearance
     assert np.median(apart) <= 1.5 * clearance
 
 
 def test_half_is_given_by_either_side_where_there_is_room(surface: CutSurface) -> None:
-    copies = moved_copies(sides_of(surface), shares_of(surface, 0.2), np.arange(len(surface.curve)))
-    moved = [np.linalg.norm(copy - surface.points[surface.curve], axis=1) for copy in copies]
+    copies = moved_copies(sides_of(surface), shares_of(surface, 0.2), np.arange(surface.curves.shape[1]))
+    moved = [np.linalg.norm(copy - surface.points[surface.curves[0]], axis=1) for copy in copies]
     assert np.median(moved[0]) == pytest.approx(np.median(moved[1]), rel=0.1)
 
 
@@ -100,20 +100,20 @@ def test_no_copy_leaves_its_rays(surface: CutSurface, clearance: float) -> None:
 
 
 def test_what_does_not_fit_is_too_near(surface: CutSurface) -> None:
-    sides, everywhere = sides_of(surface), np.arange(len(surface.curve))
+    sides, everywhere = sides_of(surface), np.arange(surface.curves.shape[1])
     shares, least = shares_of(surface, 50.0), np.full(len(everywhere), 50.0)
     assert too_near(moved_copies(sides, shares, everywhere), least, suspects=everywhere).all()
 
 
 def test_what_fits_is_not(surface: CutSurface) -> None:
-    sides, everywhere = sides_of(surface), np.arange(len(surface.curve))
+    sides, everywhere = sides_of(surface), np.arange(surface.curves.shape[1])
     least = np.full(len(everywhere), 0.99 * 0.3)
     assert not too_near(moved_copies(sides, shares_of(surface, 0.3), everywhere), least, suspects=everywhere).any()
 
 
 def test_only_suspects_are_looked_at(surface: CutSurface) -> None:
     sides = sides_of(surface)
-    still = Shares(*np.zeros((2, len(surface.curve))))
-    copies = moved_copies(sides, still, np.arange(len(surface.curve)))
-    near = too_near(copies, np.full(len(surface.curve), 0.1), suspects=np.array([5]))
+    still = Shares(*np.zeros((2, surface.curves.shape[1])))
+    copies = moved_copies(sides, still, np.arange(surface.curves.shape[1]))
+    near = too_near(copies, np.full(surface.curves.shape[1], 0.1), suspects=np.array([5]))
     assert set(np.flatnonzero(near).tolist()) == {5, 6}

@@ -25,7 +25,7 @@ def bumpy() -> TriangleMesh:
 def test_the_outside_has_the_bumps_and_walls_are_as_thick_as_asked(bumpy: TriangleMesh) -> None:
     quads = tiled(sized(geodesic_sphere(frequency=2), size=40.0), tile_size=5.0)
     duotone = grown_duotone(quads, tree="random", seed=1)
-    surface = detailed_cut(duotone, bumpy, arc=0.5, tolerance=0.1, clearance=0.3)
+    surface = detailed_cut(duotone, bumpy, rings=(0.5,), tolerance=0.1, clearance=0.3)
     away = SearchTree.of(bumpy.points, bumpy.triangles).nearest(surface.points).distance
     assert away.mean() < 0.02
     assert 0.0 < np.linalg.norm(surface.base - surface.points, axis=1).max() < 0.4

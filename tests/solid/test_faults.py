@@ -77,7 +77,7 @@ def test_crossings_of_the_outer_surface_alone_are_not_cured_here(surface: CutSur
 
 def test_an_inner_wall_moved_over_is_near(surface: CutSurface) -> None:
     made, count = built(surface, CLEARANCE), len(surface.points)
-    number = int(surface.curve[7])
+    number = int(surface.curves[0, 7])
     yellow, blue = count + number, 3 * count + number
     points = made.points.copy()
     points[yellow] = 0.2 * points[yellow] + 0.8 * points[blue]
@@ -92,5 +92,5 @@ def test_what_is_twice_as_far_as_asked_is_not_near(surface: CutSurface) -> None:
 
 def test_what_is_half_as_far_as_asked_is(surface: CutSurface) -> None:
     assert near_points(built(surface, CLEARANCE), clearance=2.0 * CLEARANCE, moved=everywhere(surface))[
-        surface.curve
+        surface.curves
     ].all()

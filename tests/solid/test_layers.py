@@ -62,27 +62,29 @@ def test_flipped_twice_is_nothing() -> None:
 
 
 def apart_by(surface: CutSurface, clearance: np.ndarray) -> Layer:
-    return layer(surface, surface.points, layer_shares(surface, surface.points, -surface.normals, clearance=clearance))
+    shares = layer_shares(surface, surface.points, -surface.normals, clearance=clearance[None])
+    return layer(surface, surface.points, shares)
 
 
 @pytest.mark.parametrize("clearance", [0.2, 0.5])
 def test_the_copies_of_a_layer_are_apart_along_the_curve_only(surface: CutSurface, clearance: float) -> None:
-    wanted = np.full(len(surface.curve), clearance)
+    wanted = np.full(surface.curves.shape[1], clearance)
     copies = apart_by(surface, wanted)
-    apart = np.linalg.norm(copies.yellow - copies.blue, axis=1)
-    assert apart[surface.curve].min() >= 0.97 * clearance
+    apart = np.linalg.norm(copies.copies[0] - copies.copies[1], axis=1)
+    assert apart[surface.curves[0]].min() >= 0.97 * clearance
     assert (apart[surface.rays[:, :, [0, -1]]] <= 1e-9).all()
 
 
 def test_a_layer_with_hardly_any_clearance_is_its_points(surface: CutSurface) -> None:
-    copies = apart_by(surface, np.full(len(surface.curve), 1e-6))
-    assert copies.yellow == pytest.approx(surface.points, abs=1e-5)
-    assert copies.blue == pytest.approx(surface.points, abs=1e-5)
+    copies = apart_by(surface, np.full(surface.curves.shape[1], 1e-6))
+    for copy in copies.copies:
+        assert copy == pytest.approx(surface.points, abs=1e-5)
 
 
 def test_no_triangle_of_a_copy_turns_over(surface: CutSurface) -> None:
-    copies = apart_by(surface, np.full(len(surface.curve), 0.5))
-    for points, own in ((copies.yellow, surface.yellow), (copies.blue, ~surface.yellow)):
+    copies = apart_by(surface, np.full(surface.curves.shape[1], 0.5))
+    for region, points in enumerate(copies.copies):
+        own = surface.regions == region
         corners = points[surface.triangles[own]]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         upward = surface.normals[surface.triangles[own]].mean(axis=1)
@@ -90,11 +92,11 @@ def test_no_triangle_of_a_copy_turns_over(surface: CutSurface) -> None:
 
 
 def test_a_layer_close_under_another_moves_like_it(surface: CutSurface) -> None:
-    down, clearance = -surface.normals, np.full(len(surface.curve), 0.5)
+    down, clearance = -surface.normals, np.full(surface.curves.shape[1], 0.5)
     levels = surface.points, surface.points + 2.0 * down
-    upper, lower = (layer_shares(surface, points, down, clearance=clearance) for points in levels)
-    assert np.abs(upper.yellow - lower.yellow).max() > 0.01
-    count = len(surface.curve)
+    upper, lower = (layer_shares(surface, points, down, clearance=clearance[None])[0] for points in levels)
+    assert np.abs(upper.left - lower.left).max() > 0.01
+    count = surface.curves.shape[1]
     far, half, close = (shares_near(upper, lower, nearness=np.full(count, value)) for value in (0.0, 0.5, 1.0))
     for own, above, below, between in zip(close, upper, lower, half, strict=True):
         np.testing.assert_allclose(own, above, atol=1e-12)
@@ -105,20 +107,17 @@ def test_a_layer_close_under_another_moves_like_it(surface: CutSurface) -> None:
 def test_hardly_under_the_surface_nothing_crosses(surface: CutSurface) -> None:
     """A hundredth of a millimetre down the facing parts are two skins that nowhere cut through each other."""
     made = assembly(surface, surface.points - 0.01 * surface.normals, clearance=0.5, core="hollow")
-    assert len(crossing_triangles(made.points, np.concatenate([made.yellow, made.blue]))) == 0
+    assert len(crossing_triangles(made.points, np.concatenate(made.bodies))) == 0
 
 
 def test_hardly_under_another_a_layer_hugs_its_copies_and_deeper_it_is_itself(surface: CutSurface) -> None:
-    upper = apart_by(surface, np.full(len(surface.curve), 0.5))
-    lower = Layer(upper.yellow - surface.normals, upper.blue - surface.normals)
+    upper = apart_by(surface, np.full(surface.curves.shape[1], 0.5))
+    lower = Layer(tuple(copy - surface.normals for copy in upper.copies))
     deep, close = (np.full(len(surface.points), depth) for depth in (2.0 * NEAR, 0.5 * NEAR))
     assert hugging(surface, upper, lower, depth=deep) is lower
     hugged = hugging(surface, upper, lower, depth=close)
-    for above, below, own in (
-        (upper.yellow, hugged.yellow, surface.yellow),
-        (upper.blue, hugged.blue, ~surface.yellow),
-    ):
-        triangles = surface.triangles[own]
+    for region, (above, below) in enumerate(zip(upper.copies, hugged.copies, strict=True)):
+        triangles = surface.triangles[surface.regions == region]
         numbers = np.unique(triangles)
         assert np.linalg.norm(below - above, axis=1)[numbers] == pytest.approx(0.5 * NEAR)
         corners = above[triangles]

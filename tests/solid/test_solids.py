@@ -66,7 +66,7 @@ def cut_body(
 ) -> tuple[CutSurface, Certificate]:
     body = BODIES[name]
     duotone = grown_duotone(tiled(sized(body.mesh, size=body.size), tile_size=12), tree="random", seed=seed)
-    return fitted_cut(duotone, arc=arc, tolerance=tolerance, clearance=clearance), certified(duotone)
+    return fitted_cut(duotone, rings=(arc,), tolerance=tolerance, clearance=clearance), certified(duotone)
 
 
 @pytest.fixture(scope="module")
@@ -157,7 +157,7 @@ def test_without_clearance_walls_are_the_same_triangles_reversed(made: Callable[
         turned = np.take_along_axis(corners, ((first[:, None] + np.arange(3)) % 3)[:, :, None], axis=1)
         return {triangle.tobytes() for triangle in turned}
 
-    assert len(keys(yellow) & keys(blue[:, ::-1])) == 2 * len(found.surface.curve)
+    assert len(keys(yellow) & keys(blue[:, ::-1])) == 2 * found.surface.curves.size
     first, second = found.manifolds
     assert (first ^ second).volume() == pytest.approx(0.0, abs=1e-6)
     assert sum(map(volume, found.solids.parts)) == pytest.approx(volume(found.solids.spaces[1]), rel=1e-6)
@@ -238,7 +238,7 @@ def test_a_body_far_thinner_than_two_walls_still_has_parts_that_do_not_cross(sha
     flat = sized(mesh.moved(mesh.points * [1.0, 1.0, share]), size=60)
     surface = fitted_cut(grown_duotone(tiled(flat, tile_size=6), tree="random", seed=1), tolerance=0.3, clearance=0.15)
     made = solids(surface, thickness=2.0, clearance=0.15)
-    assert len(crossing_triangles(made.points, np.concatenate([made.yellow, made.blue]))) == 0
+    assert len(crossing_triangles(made.points, np.concatenate(made.bodies))) == 0
 
 
 def test_a_body_thinner_than_the_clearance_is_refused() -> None:

@@ -21,18 +21,22 @@ from fabricate.mesh.crease import creased
 from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface, limit_vertices
-from fabricate.surface.template import radial
+from fabricate.surface.template import ray_steps
 
-ARCS = st.floats(0.3, 0.7)
+RINGS = st.sampled_from([(0.5,), (0.31,), (0.4, 0.6), (0.37, 0.46, 0.63), (0.35, 0.36, 0.5, 0.69)])
 NAMED = {name: random_duotone(subdivided(mesh, levels=1), seed=2) for name, mesh in named().items()}
 SPHERE = random_duotone(subdivided(geodesic_sphere(frequency=2), levels=1), seed=1)
 
 
-def cut_up(duotone: Duotone, arc: float = 0.5, resolution: int = 3) -> CutSurface:
-    return cut(duotone, LimitSurface.of(duotone.quads), arc=arc, resolution=resolution)
+def cut_up(duotone: Duotone, *rings: float, resolution: int = 3) -> CutSurface:
+    return cut(duotone, LimitSurface.of(duotone.quads), rings=rings or (0.5,), resolution=resolution)
 
 
-CUTS = st.builds(cut_up, quasi_trees(), ARCS, st.integers(2, 3))
+def cut_into(duotone: Duotone, rings: tuple[float, ...], resolution: int) -> CutSurface:
+    return cut_up(duotone, *rings, resolution=resolution)
+
+
+CUTS = st.builds(cut_into, quasi_trees(), RINGS, st.integers(2, 3))
 law = settings(max_examples=25)
 
 
@@ -46,7 +50,7 @@ def areas(surface: CutSurface) -> np.ndarray:
 
 
 def curve_steps(surface: CutSurface) -> np.ndarray:
-    places = surface.points[surface.curve]
+    places = surface.points[surface.curves[0]]
     return np.asarray(np.roll(places, -1, axis=0) - places)
 
 
@@ -86,28 +90,42 @@ def test_euler_characteristic_is_that_of_the_shape(duotone: Duotone, resolution:
 
 @law
 @given(surface=CUTS)
-def test_each_colour_is_connected_and_bounded_by_the_curve(surface: CutSurface) -> None:
-    forward = [tuple(step) for step in np.stack([surface.curve, np.roll(surface.curve, -1)], axis=1).tolist()]
-    backward = [step[::-1] for step in forward]
-    for yellow, rim in ((True, forward), (False, backward)):
-        edges = directed(surface.triangles[surface.yellow == yellow])
-        assert {edge for edge in edges if edge[::-1] not in edges} == set(rim)
+def test_each_region_is_connected_and_bounded_by_its_curves(surface: CutSurface) -> None:
+    forward = [list(zip(curve, np.roll(curve, -1).tolist(), strict=True)) for curve in surface.curves.tolist()]
+    backward = [[step[::-1] for step in curve] for curve in forward]
+    for region, rims in enumerate(zip([*forward, []], [[], *backward], strict=True)):
+        edges = directed(surface.triangles[surface.regions == region])
+        assert {edge for edge in edges if edge[::-1] not in edges} == {step for rim in rims for step in rim}
         assert nx.is_connected(nx.Graph(list(edges)))
 
 
 @law
 @given(surface=CUTS)
-def test_curve_meets_no_point_twice(surface: CutSurface) -> None:
-    assert len(set(surface.curve.tolist())) == len(surface.curve)
+def test_curves_meet_no_point_twice(surface: CutSurface) -> None:
+    assert len(np.unique(surface.curves)) == surface.curves.size
 
 
 @law
 @given(surface=CUTS)
-def test_rays_cross_the_curve_in_their_middle(surface: CutSurface) -> None:
-    middle = surface.rays.shape[2] // 2
-    assert (surface.arcs == surface.rays[:, :, middle]).all()
-    assert (surface.curve_rays[:, middle] == surface.curve).all()
-    assert (surface.arcs[surface.order, :-1].ravel() == surface.curve).all()
+def test_rays_cross_each_curve_once(surface: CutSurface) -> None:
+    for arcs, curve, step in zip(surface.arcs, surface.curves, surface.crossings, strict=True):
+        assert (arcs == surface.rays[:, :, step]).all()
+        assert (surface.curve_rays[:, step] == curve).all()
+        assert (arcs[surface.order, :-1].ravel() == curve).all()
+
+
+@law
+@given(surface=CUTS)
+def test_half_rays_begin_on_the_curve_and_fill_the_rays(surface: CutSurface) -> None:
+    rays = surface.curve_rays
+    pieces = []
+    for half_rays, curve in zip(surface.half_rays, surface.curves, strict=True):
+        assert (half_rays.left[:, 0] == curve).all()
+        assert (half_rays.right[:, 0] == curve).all()
+        pieces += [half_rays.left[:, ::-1], half_rays.right]
+    assert (np.concatenate([pieces[0][:, :1], *(piece[:, 1:] for piece in pieces)], axis=1) == rays[:, ::-1]).all()
+    for before, after in zip(surface.half_rays, surface.half_rays[1:], strict=False):
+        assert before.right.shape == after.left.shape
 
 
 @law
@@ -120,24 +138,21 @@ def test_the_last_ray_of_an_arc_is_the_first_of_the_next(surface: CutSurface) ->
 @law
 @given(surface=CUTS)
 def test_rays_run_along_edges_from_blue_to_yellow(surface: CutSurface) -> None:
-    yellow = directed(surface.triangles[surface.yellow])
-    blue = directed(surface.triangles[~surface.yellow])
-    middle = surface.rays.shape[2] // 2
+    regions = [directed(surface.triangles[surface.regions == k]) for k in range(len(surface.crossings) + 1)]
     for ray in surface.curve_rays.tolist():
-        steps = list(pairwise(ray))
-        assert blue.issuperset(steps[:middle])
-        assert yellow.issuperset(steps[middle:])
-        assert yellow.isdisjoint(steps[:middle])
-        assert blue.isdisjoint(steps[middle:])
+        for number, step in enumerate(pairwise(ray)):
+            found = [k for k, edges in enumerate(regions) if step in edges]
+            assert found == [int((surface.crossings > number).sum())]
 
 
 @law
-@given(duotone=quasi_trees(), arc=ARCS, resolution=st.integers(2, 4))
-def test_counts(duotone: Duotone, arc: float, resolution: int) -> None:
-    surface = cut_up(duotone, arc, resolution)
-    tiles, steps = len(duotone.joined), 2 * radial(resolution)
+@given(duotone=quasi_trees(), rings=RINGS, resolution=st.integers(2, 4))
+def test_counts(duotone: Duotone, rings: tuple[float, ...], resolution: int) -> None:
+    surface = cut_up(duotone, *rings, resolution=resolution)
+    tiles, steps = len(duotone.joined), sum(ray_steps(rings=rings, resolution=resolution))
     assert len(surface.triangles) == tiles * 2 * resolution * (2 * steps - 1)
-    assert len(surface.curve) == 2 * tiles * resolution
+    assert surface.curves.shape == (len(rings), 2 * tiles * resolution)
+    assert surface.rings.tolist() == list(rings)
     assert surface.rays.shape == (2 * tiles, resolution + 1, steps + 1)
     assert surface.order.tolist() == traced_arcs(duotone).tolist()
 
@@ -145,7 +160,7 @@ def test_counts(duotone: Duotone, arc: float, resolution: int) -> None:
 @pytest.mark.parametrize("name", NAMED)
 @pytest.mark.parametrize("arc", [0.31, 0.5, 0.69])
 def test_no_two_points_are_in_one_place(name: str, arc: float) -> None:
-    surface = cut_up(NAMED[name], arc, 5)
+    surface = cut_up(NAMED[name], arc, resolution=5)
     distance = np.asarray(KDTree(surface.points).query(surface.points, k=2)[0])[:, 1]
     assert distance.min() > 1e-4 * np.ptp(surface.points)
 
@@ -153,7 +168,7 @@ def test_no_two_points_are_in_one_place(name: str, arc: float) -> None:
 @pytest.mark.parametrize("name", NAMED)
 def test_the_same_input_gives_the_same_bytes(name: str) -> None:
     first, second = cut_up(NAMED[name]), cut_up(NAMED[name])
-    for array in ("points", "normals", "triangles", "yellow", "curve", "rays", "order"):
+    for array in ("points", "normals", "triangles", "regions", "rays", "crossings", "rings", "order"):
         assert getattr(first, array).tobytes() == getattr(second, array).tobytes()
 
 
@@ -165,8 +180,8 @@ def test_corners_of_tiles_keep_their_numbers_and_lie_on_the_limit(name: str) -> 
 
 @pytest.mark.parametrize("name", NAMED)
 def test_a_finer_cut_keeps_the_points_of_the_coarse_curve(name: str) -> None:
-    coarse, fine = (cut_up(NAMED[name], 0.4, resolution) for resolution in (4, 8))
-    np.testing.assert_allclose(fine.points[fine.curve[::2]], coarse.points[coarse.curve], atol=1e-12)
+    coarse, fine = (cut_up(NAMED[name], 0.4, resolution=resolution) for resolution in (4, 8))
+    np.testing.assert_allclose(fine.points[fine.curves[:, ::2]], coarse.points[coarse.curves], atol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["tetrahedron", "octahedron", "bipyramid 8", "torus", "double torus"])
@@ -179,7 +194,7 @@ def test_triangles_face_outward(name: str) -> None:
 
 
 def test_volume_and_curve_length_converge_quadratically() -> None:
-    found = [cut_up(SPHERE, 0.45, n) for n in (3, 6, 12, 24)]  # radial() doubles along with these
+    found = [cut_up(SPHERE, 0.45, resolution=n) for n in (3, 6, 12, 24)]  # radial() doubles along with these
     volumes = np.array([enclosed(surface) for surface in found])
     lengths = np.array([np.linalg.norm(curve_steps(surface), axis=1).sum() for surface in found])
     for values in (volumes, lengths):
@@ -190,7 +205,7 @@ def test_volume_and_curve_length_converge_quadratically() -> None:
 def test_curve_turns_evenly_also_where_it_enters_the_next_tile() -> None:
     sharpest = []
     for resolution in (8, 16, 32):
-        surface = cut_up(SPHERE, 0.5, resolution)
+        surface = cut_up(SPHERE, 0.5, resolution=resolution)
         steps = curve_steps(surface)
         steps /= np.linalg.norm(steps, axis=1, keepdims=True)
         cosine = np.einsum("ij,ij->i", steps, np.roll(steps, 1, axis=0))
@@ -201,8 +216,8 @@ def test_curve_turns_evenly_also_where_it_enters_the_next_tile() -> None:
 def test_yellow_grows_with_the_arc_position() -> None:
     shares = []
     for arc in np.linspace(0.3, 0.7, 9):
-        surface = cut_up(SPHERE, float(arc), 8)
-        shares.append(areas(surface)[surface.yellow].sum() / areas(surface).sum())
+        surface = cut_up(SPHERE, float(arc), resolution=8)
+        shares.append(areas(surface)[surface.regions == 0].sum() / areas(surface).sum())
     assert (np.diff(shares) > 0).all()
     # the law of square tiles, half of them joined
     np.testing.assert_allclose(shares, 0.5 + np.pi / 4 * (2 * np.linspace(0.3, 0.7, 9) - 1), atol=0.03)
@@ -220,14 +235,14 @@ def test_two_curves_are_an_error(mesh: object) -> None:
 @pytest.mark.parametrize(("arc", "resolution"), [(0.2, 4), (0.8, 4), (0.5, 1)])
 def test_what_the_template_refuses_is_refused(arc: float, resolution: int) -> None:
     with pytest.raises(PatternError):
-        cut_up(SPHERE, arc, resolution)
+        cut_up(SPHERE, arc, resolution=resolution)
 
 
 @given(millionths=st.integers(293_000, 707_000), resolution=st.integers(20, 26))
 @settings(max_examples=10)
 @example(millionths=293_001, resolution=23)
 def test_arcs_with_many_digits_leave_no_crack(millionths: int, resolution: int) -> None:
-    surface = cut_up(NAMED["tetrahedron"], millionths / 1e6, resolution)
+    surface = cut_up(NAMED["tetrahedron"], millionths / 1e6, resolution=resolution)
     assert len(surface.points) - surface.triangles.size // 6 == 2
 
 
@@ -256,9 +271,8 @@ def test_mitred_normals_lead_out_of_every_triangle_around() -> None:
 
 def test_a_surface_made_without_mitres_has_none() -> None:
     surface = cut_up(SPHERE)
-    bare = CutSurface(
-        *(getattr(surface, name) for name in ("points", "normals", "triangles", "yellow", "curve", "rays", "order"))
-    )
+    needed = ("points", "normals", "triangles", "regions", "rays", "crossings", "rings", "order")
+    bare = CutSurface(*(getattr(surface, name) for name in needed))
     assert bare.mitre.tolist() == [1.0] * len(surface.points)
     assert not bare.along.any()
     with pytest.raises(ValueError, match="shape"):
@@ -266,7 +280,7 @@ def test_a_surface_made_without_mitres_has_none() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["points", "normals", "triangles", "yellow", "curve", "rays", "order", "mitre", "along"]
+    "name", ["points", "normals", "triangles", "regions", "rays", "crossings", "rings", "order", "mitre", "along"]
 )
 def test_arrays_are_frozen(name: str) -> None:
     with pytest.raises(ValueError, match="read-only"):

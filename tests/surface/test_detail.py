@@ -51,7 +51,7 @@ def ball(subdivisions: int) -> Surface:
 
 def cut_of(mesh: PolygonMesh, *, levels: int, resolution: int = 3) -> CutSurface:
     quads = subdivided(mesh, levels=levels)
-    return cut(random_duotone(quads, seed=1), LimitSurface.of(quads), arc=0.5, resolution=resolution)
+    return cut(random_duotone(quads, seed=1), LimitSurface.of(quads), rings=(0.5,), resolution=resolution)
 
 
 def carried_onto(smooth: Surface | CutSurface, onto: Surface) -> Carried:

@@ -44,7 +44,7 @@ def test_noise_finer_than_the_finest_detail_asks_for_nothing_more() -> None:
 @pytest.mark.parametrize("resolution", [3, 4, 6, 9])
 def test_the_edges_of_a_tessellation_are_as_long_as_taken_for_granted(resolution: int) -> None:
     quads = subdivided(sphere(faces="triangles", frequency=3), levels=1)
-    made = cut(random_duotone(quads, seed=1), LimitSurface.of(quads), arc=0.5, resolution=resolution)
+    made = cut(random_duotone(quads, seed=1), LimitSurface.of(quads), rings=(0.5,), resolution=resolution)
     corners = made.points[made.triangles]
     edge = np.median(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2))
     side = np.median(tile_sides(quads))

@@ -24,7 +24,7 @@ from fabricate.triangles.crossing import crossing_triangles
 
 
 def surface_of(quads: QuadMesh) -> CutSurface:
-    return cut(random_duotone(quads, seed=1), LimitSurface.of(quads), arc=0.5, resolution=3)
+    return cut(random_duotone(quads, seed=1), LimitSurface.of(quads), rings=(0.5,), resolution=3)
 
 
 def off(quads: QuadMesh, onto: trimesh.Trimesh) -> Deviation:

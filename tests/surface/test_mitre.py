@@ -25,7 +25,7 @@ from fabricate.triangles.normals import area_vectors, unit
 
 def cut_up(mesh: PolygonMesh, *, levels: int = 2, resolution: int = 4) -> CutSurface:
     duotone = random_duotone(subdivided(mesh, levels=levels), seed=2)
-    return cut(duotone, LimitSurface.of(duotone.quads), arc=0.5, resolution=resolution)
+    return cut(duotone, LimitSurface.of(duotone.quads), rings=(0.5,), resolution=resolution)
 
 
 def sharp(mesh: PolygonMesh, *, angle: float = 40.0) -> PolygonMesh:

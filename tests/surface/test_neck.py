@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from crowding import roomy_torus
@@ -14,7 +16,7 @@ from fabricate.duotone.spanning_tree import random_duotone
 from fabricate.mesh.cube import cube
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
-from fabricate.surface.neck import NeckGauge, coarse_necks, tile_necks
+from fabricate.surface.neck import NeckGauge, band_widths, coarse_necks, tile_necks
 from fabricate.surface.sizing import tile_sides
 
 SIDE = 4.0
@@ -22,7 +24,7 @@ CUBE = two_coloured(cube(divisions=10).scaled(5 * SIDE))
 
 
 def cut_up(duotone: Duotone, arc: float, resolution: int) -> CutSurface:
-    return cut(duotone, LimitSurface.of(duotone.quads), arc=arc, resolution=resolution)
+    return cut(duotone, LimitSurface.of(duotone.quads), rings=(arc,), resolution=resolution)
 
 
 def flat_squares(quads: QuadMesh) -> np.ndarray:
@@ -56,7 +58,7 @@ def test_neck_is_the_least_distance_between_all_points_of_the_two_arcs(
 ) -> None:
     surface = cut_up(duotone, arc, resolution)
     necks, places = tile_necks(surface)
-    arcs = surface.points[surface.arcs].reshape(len(duotone.joined), 2, resolution + 1, 3)
+    arcs = surface.points[surface.arcs[0]].reshape(len(duotone.joined), 2, resolution + 1, 3)
     for (first, second), neck, place in zip(arcs, necks, places, strict=True):
         apart = cdist(first, second)
         assert neck == pytest.approx(apart.min(), rel=1e-12)
@@ -74,14 +76,42 @@ def test_place_is_in_the_middle_of_a_flat_square() -> None:
 @settings(max_examples=20)
 @given(arc=st.floats(0.3, 0.7))
 def test_the_gauge_knows_both_ways_to_join_a_square(arc: float) -> None:
-    necks = NeckGauge.of(CUBE, arc=arc).necks(CUBE.points)[flat_squares(CUBE)]
+    necks = NeckGauge.of(CUBE, rings=(arc,)).necks(CUBE.points)[flat_squares(CUBE)]
     exact = (np.sqrt(2) - 2 * np.array([1 - arc, arc])) * SIDE
     np.testing.assert_allclose(necks, np.broadcast_to(exact, necks.shape), atol=1e-12)
 
 
+RINGS = (0.37, 0.46, 0.63)
+
+
+@pytest.mark.parametrize("rings", [(0.4, 0.6), RINGS, (0.33, 0.4, 0.5)])
+def test_bands_of_flat_squares_are_as_wide_as_their_rings_are_apart(rings: tuple[float, ...]) -> None:
+    duotone, flat = random_duotone(CUBE, seed=2), flat_squares(CUBE)
+    surface = cut(duotone, LimitSurface.of(CUBE), rings=rings, resolution=8)
+    found = band_widths(surface)
+    for (widths, places), (inner, outer) in zip(found, pairwise(rings), strict=True):
+        np.testing.assert_allclose(widths[flat], (outer - inner) * SIDE, rtol=1e-12)
+        middle = CUBE.points[CUBE.tiles].mean(axis=1)[flat]
+        assert (np.abs(places[flat] - middle).max(axis=1) <= SIDE / 2 + 1e-9).all()
+    narrowest = np.where(duotone.joined, 1 - rings[0], rings[-1])
+    np.testing.assert_allclose(tile_necks(surface)[0][flat], ((np.sqrt(2) - 2 * narrowest) * SIDE)[flat], atol=1e-12)
+
+
+def test_a_duotone_has_no_bands() -> None:
+    assert band_widths(cut_up(random_duotone(CUBE, seed=2), 0.5, 2)) == ()
+
+
+def test_the_gauge_counts_bands_that_are_narrower_than_necks() -> None:
+    necks = NeckGauge.of(CUBE, rings=RINGS).necks(CUBE.points)[flat_squares(CUBE)]
+    np.testing.assert_allclose(necks, (0.46 - 0.37) * SIDE, rtol=1e-9)
+    wide = NeckGauge.of(CUBE, rings=(0.35, 0.6)).necks(CUBE.points)[flat_squares(CUBE)]
+    exact = np.array([(np.sqrt(2) - 2 * 0.65), (np.sqrt(2) - 2 * 0.6)]) * SIDE
+    np.testing.assert_allclose(wide, np.broadcast_to(exact, wide.shape), atol=1e-12)
+
+
 def test_the_gauge_follows_points_that_move(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("fabricate.surface.neck.CHUNK", 100)
-    gauge = NeckGauge.of(CUBE, arc=0.5)
+    gauge = NeckGauge.of(CUBE, rings=(0.5,))
     np.testing.assert_allclose(gauge.necks(2.0 * CUBE.points), 2.0 * gauge.necks(CUBE.points), rtol=1e-12)
     assert gauge.necks(CUBE.points).shape == (len(CUBE.tiles), 2)
 
@@ -90,6 +120,6 @@ def test_the_gauge_follows_points_that_move(monkeypatch: pytest.MonkeyPatch) -> 
 def test_necks_measured_quickly_are_those_of_a_fine_cut(arc: float) -> None:
     roomy = roomy_torus()
     fine = tile_necks(cut_up(roomy, arc, 24))[0]
-    off = coarse_necks(roomy, arc=arc) - fine
+    off = coarse_necks(roomy, rings=(arc,)) - fine
     assert off.min() > -1e-9
     assert (off < 0.03 * tile_sides(roomy.quads).reshape(-1, 4).max(axis=1)).all()

@@ -41,17 +41,17 @@ shapes = pytest.mark.parametrize("name", PATTERNS)
 
 
 def found_for(duotone: Duotone, tolerance: float, arc: float = 0.5) -> int:
-    return resolution_for(duotone, LimitSurface.of(duotone.quads), arc=arc, tolerance=tolerance)
+    return resolution_for(duotone, LimitSurface.of(duotone.quads), rings=(arc,), tolerance=tolerance)
 
 
 def errors_of(duotone: Duotone, resolution: int, arc: float = 0.5) -> np.ndarray:
     surface = LimitSurface.of(duotone.quads)
-    return np.asarray(chord_errors(duotone, surface, arc=arc, resolution=resolution))
+    return np.asarray(chord_errors(duotone, surface, rings=(arc,), resolution=resolution))
 
 
 def along_edges(*, arc: float, resolution: int, yellow_joined: bool, steps: int) -> np.ndarray:
     """Return parameters along every edge of a template, ends included, (e, steps + 1, 2); arcs are bent."""
-    template = tile_template(arc=arc, resolution=resolution, yellow_joined=yellow_joined)
+    template = tile_template(rings=(arc,), resolution=resolution, yellow_joined=yellow_joined)
     t = template.triangles
     edges = np.unique(np.sort(np.concatenate([t[:, :2], t[:, 1:], t[:, [0, 2]]]), axis=1), axis=0)
     fraction = np.linspace(0, 1, steps + 1)
@@ -59,7 +59,7 @@ def along_edges(*, arc: float, resolution: int, yellow_joined: bool, steps: int)
     places: np.ndarray = begin[:, None] + fraction[:, None] * (end - begin)[:, None]
     number = {edge: k for k, edge in enumerate(map(tuple, edges.tolist()))}
     centres = ([1, 0], [0, 1]) if yellow_joined else ([0, 0], [1, 1])
-    for samples, centre in zip(template.arcs.tolist(), centres, strict=True):
+    for samples, centre in zip(template.arcs[0].tolist(), centres, strict=True):
         for edge in pairwise(samples):
             first, last = sorted(edge)
             places[number[first, last]] = bent(template.uv[first], template.uv[last], centre, fraction)

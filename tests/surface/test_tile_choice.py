@@ -30,7 +30,7 @@ WISH = TileWish(
     neck=0.1,
     clearance=0.05,
     resized=True,
-    arc=0.5,
+    rings=(0.5,),
     seed=0,
     cage=True,
     round_limit=False,
@@ -67,16 +67,16 @@ def test_levels_count(asked: list[tuple[Cells, int]]) -> None:
 
 def test_narrow_necks_ask_for_coarser_tiles_and_say_so() -> None:
     fine = chosen(RING, WISH)
-    narrowest = coarse_necks(GROW(fine.quads), arc=0.5).min()
+    narrowest = coarse_necks(GROW(fine.quads), rings=(0.5,)).min()
     coarse = chosen(RING, replace(WISH, neck=1.5 * narrowest))
     assert typical_side(coarse.quads) > 1.5 * typical_side(fine.quads)
-    assert coarse_necks(GROW(coarse.quads), arc=0.5).min() >= 1.5 * narrowest
+    assert coarse_necks(GROW(coarse.quads), rings=(0.5,)).min() >= 1.5 * narrowest
     assert "larger" in coarse.notes[0]
 
 
 def test_necks_wide_enough_change_nothing() -> None:
     fine = chosen(RING, WISH)
-    narrowest = coarse_necks(GROW(fine.quads), arc=0.5).min()
+    narrowest = coarse_necks(GROW(fine.quads), rings=(0.5,)).min()
     again = chosen(RING, replace(WISH, neck=0.99 * narrowest))
     assert (again.quads.points == fine.quads.points).all()
     assert again.notes == ()
@@ -95,7 +95,7 @@ def test_cells_of_the_size_asked_for_without_room_for_the_clearance_ask_for_new_
     cells: str, new: bool, asked: list[tuple[Cells, int]]
 ) -> None:
     wish = replace(WISH, resized=False, neck=30.0, cells=cells)  # type: ignore[arg-type]
-    necks = coarse_necks(GROW(chosen(RING, wish).quads), arc=0.5)
+    necks = coarse_necks(GROW(chosen(RING, wish).quads), rings=(0.5,))
     assert not asked
     few, many = np.quantile(necks, [0.05, 0.2])
     assert chosen(RING, replace(wish, clearance=few)).surface is None
@@ -109,7 +109,7 @@ CROWDED = replace(WISH, size=60.0, tile_size=4.0, neck=0.8, cage=False)
 
 def test_a_cage_slides_until_its_necks_are_wide(asked: list[tuple[Cells, int]]) -> None:
     tiling = chosen(crowded_cage(), CROWDED)
-    assert coarse_necks(GROW(tiling.quads), arc=0.5).min() >= CROWDED.neck
+    assert coarse_necks(GROW(tiling.quads), rings=(0.5,)).min() >= CROWDED.neck
     assert tiling.surface is not None
     assert tiling.notes == ("the mesh's own cells slid over its surface until their necks were 0.8 mm wide",)
     assert not asked

@@ -21,7 +21,7 @@ RING = smooth_surface(torus(around=16, across=8, tube=0.45), size=60.0, round_li
 
 def necks(quads: QuadMesh) -> np.ndarray:
     """Return the wider of the two necks that each tile can have."""
-    return np.asarray(NeckGauge.of(quads, arc=0.5).necks(quads.points).max(axis=1))
+    return np.asarray(NeckGauge.of(quads, rings=(0.5,)).necks(quads.points).max(axis=1))
 
 
 @pytest.fixture(scope="module")
@@ -44,21 +44,21 @@ def test_narrow_tiles_grow_until_they_are_wide_enough(crowded: QuadMesh) -> None
     before = necks(crowded)
     goal = 0.5 * float(np.median(before))
     assert before.min() < 0.5 * goal
-    after = widened(crowded, RING, arc=0.5, neck=goal)
+    after = widened(crowded, RING, rings=(0.5,), neck=goal)
     assert necks(after).min() >= goal
     assert (after.tiles == crowded.tiles).all()
     assert off(after, RING) < 1.5
 
 
 def test_a_roomy_tiling_stays_as_it_is(roomy: QuadMesh) -> None:
-    assert widened(roomy, RING, arc=0.5, neck=0.5) is roomy
+    assert widened(roomy, RING, rings=(0.5,), neck=0.5) is roomy
 
 
 def test_a_tiling_with_too_many_narrow_tiles_stays_as_it_is(crowded: QuadMesh, monkeypatch: pytest.MonkeyPatch) -> None:
     goal = 0.5 * float(np.median(necks(crowded)))
     narrow = float((necks(crowded) < goal).mean())
     monkeypatch.setattr("fabricate.surface.widening.MOST_NARROW", 0.9 * narrow)
-    assert widened(crowded, RING, arc=0.5, neck=goal) is crowded
+    assert widened(crowded, RING, rings=(0.5,), neck=goal) is crowded
 
 
 def test_slides_that_tangle_the_surface_are_given_up(crowded: QuadMesh, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -67,11 +67,11 @@ def test_slides_that_tangle_the_surface_are_given_up(crowded: QuadMesh, monkeypa
 
     monkeypatch.setattr("fabricate.surface.widening.fitted", refused)
     goal = 0.5 * float(np.median(necks(crowded)))
-    assert widened(crowded, RING, arc=0.5, neck=goal) is crowded
+    assert widened(crowded, RING, rings=(0.5,), neck=goal) is crowded
 
 
 def test_what_cannot_be_had_is_not_asked_for(roomy: QuadMesh) -> None:
     """With necks far wider than tiles only those go on growing that are narrower than most."""
-    after = widened(roomy, RING, arc=0.5, neck=100.0)
+    after = widened(roomy, RING, rings=(0.5,), neck=100.0)
     assert necks(after).min() >= necks(roomy).min()
     assert np.median(necks(after)) == pytest.approx(np.median(necks(roomy)), rel=0.2)
