@@ -25,7 +25,7 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
 from fabricate.output.sculpture import write_sculpture
-from fabricate.prepare.density import finest_tile
+from fabricate.prepare.density import check_room, finest_tile
 from fabricate.prepare.inspection import Inspection, inspected
 from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
@@ -178,6 +178,8 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         cage=not isinstance(source, FileConfig),
         round_limit=isinstance(source, SphereConfig),
     )
+    if isinstance(pattern.tile_size, float):
+        check_room(pattern.positions, tile_size=pattern.tile_size, clearance=clearance)
     if pattern.tile_size != "auto":
         return wish, ()
     finest = finest_tile(feature, clearance, extent=source.size, rings=pattern.positions)

@@ -12,12 +12,12 @@ from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
 from fabricate.checks.facts import Distance, MeshFacts, PatternFacts, Spread, Xyz
 from fabricate.duotone.certificate import Certificate, RegionFacts
 from fabricate.duotone.duotone import Duotone
-from fabricate.duotone.region_names import region_names
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.tile_quality import tile_quality
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.process import Process
+from fabricate.region_names import region_names
 from fabricate.solid.assembly import Assembly, Core
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.deviation import deviation

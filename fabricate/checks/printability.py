@@ -70,12 +70,12 @@ def band_check(band: Band, *, clearance: float | None, process: Process | None) 
         return Check(code, ok=False, skipped=True, message=message)
     left = band.width - clearance
     ok = left >= process.feature_min
-    missing = (process.feature_min + clearance) / max(band.width, 1e-9)
-    spacing = math.ceil(1e3 * missing * band.spacing) / 1e3
+    factor = (process.feature_min + clearance) / max(band.width, 1e-9)
+    spacing = math.ceil(1e3 * factor * band.spacing) / 1e3
     advice = (
         ""
         if ok
-        else f", at {place(band.at)}; ask for tiles {math.ceil(1e2 * missing) / 1e2:g} times as large, or rings at "
+        else f", at {place(band.at)}; ask for tiles {math.ceil(1e2 * factor) / 1e2:g} times as large, or rings at "
         f"least {spacing:g} apart there instead of {band.spacing:.3g}"
     )
     return Check(

@@ -17,7 +17,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, frozen
-from fabricate.duotone.region_names import region_names
+from fabricate.region_names import region_names
 from fabricate.solid.facing import wall_gaps
 from fabricate.solid.floor import floor_drop, lowered
 from fabricate.solid.layers import Layer, flipped, hugging, layer, layer_shares, shares_near, wall

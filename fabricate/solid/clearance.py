@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
-from fabricate.duotone.region_names import region_names
 from fabricate.errors import SolidError
+from fabricate.region_names import region_names
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.neck import band_widths, tile_necks
 from fabricate.triangles.normals import unit
