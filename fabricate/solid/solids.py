@@ -8,6 +8,7 @@ from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.clearance import check_necks
+from fabricate.solid.dither import dithered
 from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.inset import (
     SAFE_DEPTH,
@@ -77,7 +78,7 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
             mended = retreated(inner, around, means, safe=safe, times=times)
         moved = (mended != inner).any(axis=1)
         inner = mended
-    return made
+    return dithered(made)
 
 
 def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> tuple[Mask, Mask]:
