@@ -23,6 +23,9 @@ REACH = 1e-5
 IN_PLANE = 1e-8
 """How much less than 1 the cosine between normals may be in one plane: 0.008 degrees, which no curved surface has."""
 
+FACE = 2
+"""In a flat face a triangle has at least so many neighbours in its plane."""
+
 _MIX = (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
 """Odd constants of SplitMix64."""
 
@@ -49,7 +52,10 @@ def dithered(made: Assembly) -> Assembly:
 
 
 def _in_slanting_planes(points: Floats, triangles: Indices) -> Mask:
-    """Return the triangles, (m,) bool, of a closed mesh that lie in a slanting plane with one across an edge."""
+    """Return the triangles, (m,) bool, of a closed mesh that lie in a slanting plane with most of their neighbours.
+
+    The two triangles of a piece of wall lie in one plane as well, and are no face of it.
+    """
     facets = unit(area_vectors(points, triangles))
     tails, heads = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     ahead, back = tails * len(points) + heads, heads * len(points) + tails
@@ -57,7 +63,7 @@ def _in_slanting_planes(points: Floats, triangles: Indices) -> Mask:
     across = order[np.searchsorted(ahead, back, sorter=order)] // 3
     cosine = np.einsum("ij,ij->i", facets[across], np.repeat(facets, 3, axis=0)).reshape(-1, 3)
     slanting = np.abs(facets).max(axis=1) < 1.0 - IN_PLANE
-    in_planes: Mask = slanting & (cosine > 1.0 - IN_PLANE).any(axis=1)
+    in_planes: Mask = slanting & ((cosine > 1.0 - IN_PLANE).sum(axis=1) >= FACE)
     return in_planes
 
 
