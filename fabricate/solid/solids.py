@@ -63,8 +63,9 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     fewest, waited = np.full(2, len(inner)), 0
     for step in range(ALL_ROUNDS):
         made = assembly(surface, inner, clearance=clearance, core=core)
-        all_kinds = step < RETREAT_FROM or waited >= UNHEEDED
-        crossing, near = _faults(made, clearance, moved, all_kinds=all_kinds)
+        stuck = waited >= UNHEEDED
+        all_kinds = step < RETREAT_FROM or stuck
+        crossing, near = _faults(made, clearance, moved | stuck, all_kinds=all_kinds)
         faulty = crossing | near
         if not faulty.any():
             break
