@@ -55,7 +55,7 @@ def _dual_tree(mesh: TriangleMesh, joined: Edges, in_tree: Mask) -> tuple[list[I
     rows, columns = np.concatenate([joined.triangles[free], joined.triangles[free, ::-1]]).T
     count = len(mesh.triangles)
     numbers = coo_array((np.tile(free + 1, 2), (rows, columns)), shape=(count, count)).tocsr()
-    order, before = breadth_first_order(numbers, 0, directed=False)
+    order, before = (found.astype(np.int64) for found in breadth_first_order(numbers, 0, directed=False))
     across = np.zeros(count, dtype=np.int64)
     across[order[1:]] = np.asarray(numbers[order[1:], before[order[1:]]]).ravel() - 1
     levels = [order[:1]]

@@ -1,5 +1,4 @@
-"""Handles too thin to be made: what is no thicker than two walls and the gap between them is cut away, holes as narrow
-are filled, and both are told.
+"""Handles too thin to be made, which are cut away, and holes as narrow, which are filled.
 
 No pattern can be laid round such a handle: its tiles would be so small that the gap would leave nothing of their necks.
 """
@@ -7,22 +6,16 @@ No pattern can be laid round such a handle: its tiles would be so small that the
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
-from fabricate.arrays import Floats, Indices, Mask, Words
+from fabricate.arrays import Floats, Indices, Mask
 from fabricate.mesh.closed import genus
-from fabricate.prepare.homology import edge_words
-from fabricate.prepare.triangle_mesh import Edges, TriangleMesh, edges
+from fabricate.prepare.short_loops import Loop, short_loops
+from fabricate.prepare.triangle_mesh import TriangleMesh, edges
 from fabricate.triangles.adjacency import neighbour_means
-from fabricate.triangles.normals import vertex_normals
-from fabricate.triangles.ray_casting import first_hits
-
-SPACING = 1.0 / 6.0
-"""Distance between the places from which loops are looked for, as a share of the longest loop."""
 
 DETOUR = 1.2
 """How much longer a loop along edges may be than the circle that it stands for."""
@@ -30,12 +23,6 @@ DETOUR = 1.2
 APART, MOST_DRAWN = 0.25, 0.5
 """How far the rims of a cut are drawn back, as a share of the thinnest handle, and of the way to the points next to
 them."""
-
-START = 1e-3
-"""How far from the surface a ray begins, mm."""
-
-SOURCES = 64
-"""Ways are looked for from so many places at once: each takes a row as long as the surface has points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,12 +41,6 @@ class Simplified:
     notes: tuple[str, ...]
 
 
-class _Loop(NamedTuple):
-    length: float
-    points: Indices
-    word: bytes
-
-
 def without_thin_handles(surface: TriangleMesh, *, thinnest: float) -> Simplified:
     """Return a surface without handles thinner, and without holes narrower, than `thinnest` mm across.
 
@@ -68,7 +49,7 @@ def without_thin_handles(surface: TriangleMesh, *, thinnest: float) -> Simplifie
     before = handles = genus(surface.polygons)
     longest, places = DETOUR * np.pi * thinnest, []
     while handles:
-        loops = _short_loops(surface, across=thinnest, longest=longest)
+        loops = short_loops(surface, across=thinnest, longest=longest)
         if not loops:
             break
         places.append(surface.points[loops[0].points].mean(axis=0))
@@ -84,96 +65,7 @@ def without_thin_handles(surface: TriangleMesh, *, thinnest: float) -> Simplifie
     return Simplified(surface, (note,))
 
 
-def _short_loops(surface: TriangleMesh, *, across: float, longest: float) -> list[_Loop]:
-    """Return loops that do not part the surface, the shortest one first, at most one from each place tried."""
-    joined = edges(surface)
-    words, lengths = edge_words(surface), joined.lengths(surface.points)
-    shape = (len(surface.points),) * 2
-    ways = csr_array(coo_array((lengths, tuple(joined.ends.T)), shape=shape))
-    numbers = csr_array(coo_array((np.arange(1, len(lengths) + 1), tuple(joined.ends.T)), shape=shape))
-    found = []
-    places = _narrow_places(surface, across=across, spacing=SPACING * longest)
-    for begin in range(0, len(places), SOURCES):
-        sources = places[begin : begin + SOURCES]
-        distances, befores = dijkstra(
-            ways, directed=False, indices=sources, limit=longest / 2.0, return_predecessors=True
-        )
-        for source, distance, before in zip(sources, distances, befores, strict=True):
-            loop = _loop_through(int(source), distance, before, joined, lengths, words, numbers, longest=longest)
-            if loop is not None:
-                found.append(loop)
-    return sorted(found, key=lambda loop: loop.length)
-
-
-def _narrow_places(surface: TriangleMesh, *, across: float, spacing: float) -> Indices:
-    """Return points where there is no more than `across`, mm, of body or of hole, one for each small cube of space."""
-    normals = vertex_normals(surface.points, surface.triangles)
-    reach = np.full(len(surface.points), np.inf)
-    for way in (normals, -normals):
-        hits = first_hits(surface.points, surface.triangles, surface.points + START * way, way)
-        reach = np.minimum(reach, hits.distance)
-    narrow = np.flatnonzero(reach <= across)
-    cubes = np.floor(surface.points[narrow] / spacing).astype(np.int64)
-    return narrow[np.unique(cubes, axis=0, return_index=True)[1]]
-
-
-def _loop_through(
-    source: int,
-    distance: Floats,
-    before: Indices,
-    joined: Edges,
-    lengths: Floats,
-    words: Words,
-    numbers: csr_array,
-    *,
-    longest: float,
-) -> _Loop | None:
-    """Return the shortest loop through a point that does not part the surface, if it is short enough."""
-    first, second = joined.ends.T
-    closing = np.flatnonzero(np.isfinite(distance[first]) & np.isfinite(distance[second]))
-    first, second = first[closing], second[closing]
-    whole = distance[first] + distance[second] + lengths[closing]
-    tree = (before[first] == second) | (before[second] == first)
-    kept = ~tree & (whole <= longest)
-    closing, first, second, whole = closing[kept], first[kept], second[kept], whole[kept]
-    if not len(closing):
-        return None
-    word = words[closing] ^ _path_words(first, before, source, words, numbers) ^ _path_words(
-        second, before, source, words, numbers
-    )
-    around = np.flatnonzero(word.any(axis=1))
-    if not len(around):
-        return None
-    best = around[whole[around].argmin()]
-    there, back = (_path(int(end[best]), before, source) for end in (first, second))
-    while len(there) > 1 and len(back) > 1 and there[-2] == back[-2]:
-        there, back = there[:-1], back[:-1]
-    return _Loop(float(whole[best]), np.array(there + back[-2::-1]), word[best].tobytes())
-
-
-def _path(point: int, before: Indices, source: int) -> list[int]:
-    path = [point]
-    while path[-1] != source:
-        path.append(int(before[path[-1]]))
-    return path
-
-
-def _path_words(ends: Indices, before: Indices, source: int, words: Words, numbers: csr_array) -> Words:
-    """Return the words of the ways from some points to the source, (k, w) uint64."""
-    sums = np.zeros((len(ends), words.shape[1]), dtype=np.uint64)
-    here = ends
-    while True:
-        on_way = np.flatnonzero(here != source)
-        if not len(on_way):
-            return sums
-        ahead = before[here[on_way]]
-        low, high = np.minimum(here[on_way], ahead), np.maximum(here[on_way], ahead)
-        sums[on_way] ^= words[np.asarray(numbers[low, high]).ravel() - 1]
-        here = here.copy()
-        here[on_way] = ahead
-
-
-def _parted(surface: TriangleMesh, loops: list[_Loop], *, smallest: float, apart: float) -> TriangleMesh:
+def _parted(surface: TriangleMesh, loops: list[Loop], *, smallest: float, apart: float) -> TriangleMesh:
     """Return the surface cut along loops, and covered with lids, without the pieces between cuts round one handle."""
     pieces = _pieces(_cut(surface, _disjoint(loops, most=len(loops)), apart=apart))
     large = [piece for piece in pieces if piece.area >= smallest]
@@ -183,7 +75,7 @@ def _parted(surface: TriangleMesh, loops: list[_Loop], *, smallest: float, apart
     return max(pieces, key=lambda piece: piece.area)
 
 
-def _disjoint(loops: list[_Loop], *, most: int) -> list[_Loop]:
+def _disjoint(loops: list[Loop], *, most: int) -> list[Loop]:
     """Return loops without common points, of independent classes, and of each class no more than `most`."""
     used: set[int] = set()
     counts: dict[bytes, int] = {}
@@ -210,7 +102,7 @@ def _independent(word: int, basis: list[int]) -> bool:
     return word != 0
 
 
-def _cut(surface: TriangleMesh, loops: list[_Loop], *, apart: float) -> TriangleMesh:
+def _cut(surface: TriangleMesh, loops: list[Loop], *, apart: float) -> TriangleMesh:
     """Return the surface with points on loops doubled, the two rims drawn apart, and a lid on each."""
     joined = edges(surface)
     count = len(surface.points)
@@ -226,8 +118,9 @@ def _cut(surface: TriangleMesh, loops: list[_Loop], *, apart: float) -> Triangle
     points = np.zeros((int(fan.max()) + 1, 3))
     points[fan] = surface.points[surface.triangles.ravel()]
     rims = joined.sides[~kept].ravel()
-    opened, rims = fan.reshape(-1, 3), np.stack([fan[_next(rims)], fan[rims]], axis=1)
-    return _covered(_drawn_back(points, opened, rims, by=apart), opened, rims)
+    opened: Indices = fan.reshape(-1, 3).astype(np.int64)
+    ends: Indices = np.stack([opened.ravel()[_next(rims)], opened.ravel()[rims]], axis=1)
+    return _covered(_drawn_back(points, opened, ends, by=apart), opened, ends)
 
 
 def _drawn_back(points: Floats, triangles: Indices, rims: Indices, *, by: float) -> Floats:
@@ -250,8 +143,8 @@ def _covered(points: Floats, triangles: Indices, rims: Indices) -> TriangleMesh:
     ends = ends.reshape(-1, 2)
     graph = coo_array((np.ones(len(ends)), tuple(ends.T)), shape=(len(used), len(used)))
     number, label = connected_components(graph, directed=False)
-    centres = np.stack([np.bincount(label, values) for values in points[used].T], axis=1)
-    centres /= np.bincount(label, minlength=number)[:, None]
+    sums = [np.bincount(label, values, minlength=number) for values in points[used].T]
+    centres = np.column_stack(sums) / np.bincount(label, minlength=number)[:, None]
     covers = np.column_stack([rims, len(points) + label[ends[:, 0]]])
     return TriangleMesh(np.concatenate([points, centres]), np.concatenate([triangles, covers]))
 

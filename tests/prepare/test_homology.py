@@ -24,7 +24,7 @@ def word_along(surface: TriangleMesh, way: Indices) -> Words:
     return np.bitwise_xor.reduce(words[[number[min(a, b), max(a, b)] for a, b in sides]], axis=0)
 
 
-def circle(surface: TriangleMesh, axis: int, step: int) -> Indices:
+def circle(axis: int, step: int) -> Indices:
     """Return the corners of quads along one of the ring's circles: of the tube, or round the axis."""
     numbers = np.arange(AROUND * ACROSS).reshape(AROUND, ACROSS)
     return numbers[step] if axis == 0 else numbers[:, step]
@@ -64,8 +64,8 @@ def test_a_ball_has_no_words() -> None:
 
 
 def test_circles_of_a_ring_have_words_and_parallel_ones_the_same() -> None:
-    tube, other_tube = (word_along(RING, circle(RING, 0, step)) for step in (0, 5))
-    ring, other_ring = (word_along(RING, circle(RING, 1, step)) for step in (0, 3))
+    tube, other_tube = (word_along(RING, circle(0, step)) for step in (0, 5))
+    ring, other_ring = (word_along(RING, circle(1, step)) for step in (0, 3))
     assert tube.any()
     assert ring.any()
     np.testing.assert_array_equal(tube, other_tube)
