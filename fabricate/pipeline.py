@@ -164,7 +164,8 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
 def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
     """Return what is asked of a body's tiles, and the sentence that says what bound their size, if it is free."""
     source, pattern, prepare = config.source, config.pattern, config.prepare
-    feature, clearance = PROCESSES[config.process.name].feature_min, config.solid.clearance
+    process, clearance = PROCESSES[config.process.name], config.solid.clearance
+    feature = process.feature_min
     wish = TileWish(
         size=source.size,
         tile_size=None if pattern.tile_size == "auto" else pattern.tile_size,
@@ -172,6 +173,7 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         cells="quads" if prepare.cells == "auto" and body.wrapped else prepare.cells,
         neck=NECK_MARGIN * (feature + clearance),
         clearance=clearance,
+        thinnest=2.0 * process.wall_min + clearance,
         resized=pattern.tile_size == "auto",
         rings=pattern.positions,
         seed=prepare.seed,

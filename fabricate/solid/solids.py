@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fabricate.arrays import Floats, Mask
+from fabricate.arrays import Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.clearance import check_necks
@@ -21,8 +21,8 @@ from fabricate.solid.inset import (
     spread,
     straight_down,
     ways_in,
-    ways_through,
 )
+from fabricate.solid.thick_enough import check_thick
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
@@ -51,9 +51,9 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     """
     _check_sizes(surface, thickness, clearance)
     _check_embedded(surface)
+    check_thick(surface.points, surface.triangles, clearance=clearance)
     between = 1.1 * clearance if core == "hollow" else 2.0 * clearance + CORE_WEB
     down = downward(surface.points, surface.triangles, ways_in(surface, thickness=thickness))
-    _check_thick(surface, down, clearance)
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
     straight = SAFE_DEPTH * thickness * straight_down(surface.points, surface.triangles)
@@ -107,16 +107,6 @@ def _check_sizes(surface: CutSurface, thickness: float, clearance: float) -> Non
     if not clearance >= 0.0:
         raise SolidError(f"the clearance must not be negative, found {clearance:g} mm")
     check_necks(surface, clearance=clearance)
-
-
-def _check_thick(surface: CutSurface, down: Floats, clearance: float) -> None:
-    typical = float(np.median(ways_through(surface, down)))
-    if typical < clearance:
-        raise SolidError(
-            f"half of the body is no more than {typical:.2g} mm thick, and the clearance is {clearance:g} mm: that is "
-            "no body to make walls of; ask for a larger source.size or a smaller solid.clearance, or thicken the mesh, "
-            'as prepare.repair = "wrap" does with sheets'
-        )
 
 
 def _check_embedded(surface: CutSurface) -> None:
