@@ -20,7 +20,7 @@ from fabricate.formats.source import source_mesh
 from fabricate.mesh.closed import genus
 from fabricate.process import PROCESSES
 
-PATHS = sorted((Path(__file__).parents[1] / "configs").glob("*.toml"))
+PATHS = sorted((Path(__file__).parents[1] / "configs").rglob("*.toml"))
 each_path = pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 Configs = dict[str, Config]
 
@@ -28,6 +28,10 @@ Configs = dict[str, Config]
 @pytest.fixture(scope="module")
 def configs() -> Configs:
     return {path.stem: load_config(path) for path in PATHS}
+
+
+def test_no_two_have_one_name(configs: Configs) -> None:
+    assert len(configs) == len(PATHS)
 
 
 def test_there_are_enough() -> None:
@@ -88,6 +92,7 @@ def test_necks_and_walls_of_square_tiles_come_out_of_the_printer(path: Path) -> 
     config = load_config(path)
     process, tile = PROCESSES[config.process.name], config.pattern.tile_size
     assert tile is not None
+    assert config.pattern.arc is not None
     narrowest = 2**0.5 - 2 * max(config.pattern.arc, 1 - config.pattern.arc)
     assert narrowest * tile - config.solid.clearance >= process.feature_min
     assert config.solid.thickness >= process.wall_min

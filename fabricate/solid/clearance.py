@@ -68,7 +68,7 @@ def check_necks(surface: CutSurface, *, clearance: float) -> None:
     ------
     SolidError
     """
-    neck = float(np.quantile(tile_necks(surface)[0], 0.25))
+    neck = narrow_neck(surface)
     if clearance >= neck:
         raise SolidError(
             f"a clearance of {clearance:g} mm leaves nothing of a quarter of the necks, which are at most "
@@ -84,6 +84,11 @@ def check_necks(surface: CutSurface, *, clearance: float) -> None:
                 f"most {width:.3g} mm wide; ask for a smaller solid.clearance, a larger pattern.tile_size or "
                 f"pattern.rings that are more than {spacing * clearance / width:.3g} apart there, not {spacing:.3g}"
             )
+
+
+def narrow_neck(surface: CutSurface) -> float:
+    """Return the width, mm, that a quarter of the necks do not have."""
+    return float(np.quantile(tile_necks(surface)[0], 0.25))
 
 
 def ray_sides(surface: CutSurface, points: Floats) -> tuple[RaySides, ...]:
