@@ -92,8 +92,8 @@ def test_necks_and_walls_of_square_tiles_come_out_of_the_printer(path: Path) -> 
     config = load_config(path)
     process, tile = PROCESSES[config.process.name], config.pattern.tile_size
     assert tile is not None
-    assert config.pattern.arc is not None
-    narrowest = 2**0.5 - 2 * max(config.pattern.arc, 1 - config.pattern.arc)
+    rings = config.pattern.positions
+    narrowest = 2**0.5 - 2 * max(rings[-1], 1 - rings[0])
     assert narrowest * tile - config.solid.clearance >= process.feature_min
     assert config.solid.thickness >= process.wall_min
     assert config.solid.clearance == 0.0 or config.solid.clearance >= process.gap_default

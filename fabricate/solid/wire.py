@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from fabricate.arrays import Floats
 from fabricate.errors import SolidError
 from fabricate.solid.part import Part
@@ -18,8 +20,8 @@ from fabricate.triangles.crossing import crossing_triangles
 
 NAME = "wire"
 
-HALVINGS = 12
-"""How often a diameter that is too large is halved or met half way in looking for the largest."""
+HALVINGS = 8
+"""How often the way between a diameter that fits and twice as much, which does not, is halved to find the largest."""
 
 ROUNDING, SMALLER = 0.01, 0.98
 """The largest diameter is told in whole hundredths of a mm; so much of it is tried next when its triangles cross."""
@@ -70,7 +72,10 @@ def _free_path(polyline: Floats, diameter: float, tolerance: float) -> WirePath 
 
 def _largest(polyline: Floats, diameter: float, tolerance: float) -> float:
     """Return the largest diameter below a given one that does not touch itself, in whole hundredths of a mm."""
-    good, bad = 0.0, diameter
+    good = 0.5 * min(diameter, float(np.ptp(polyline, axis=0).max()))
+    while good > ROUNDING and _free_path(polyline, good, tolerance) is None:
+        good *= 0.5
+    bad = 2.0 * good
     for _ in range(HALVINGS):
         middle = 0.5 * (good + bad)
         fits = _free_path(polyline, middle, tolerance) is not None

@@ -15,8 +15,9 @@ from fabricate.triangles.normals import unit
 SHARPEST = 1.06
 """Smallest radius of a bend, in radii of the wire: below 1 a tube folds at the inside of the bend."""
 
-LEAST_STEPS, MOST_STEPS, STEPS_PER_RADIUS = 2, 8, 4
-"""How many steps there are, while bends are eased, to a step of the curve: so many to a radius, within these bounds."""
+STEPS_PER_RADIUS, MOST_STEPS = 4, 8
+"""How many steps there are to a radius while bends are eased, but no more than so many to a step of the curve. What is
+smaller than a step lies inside the wire."""
 
 ROUNDS = 200
 """Rounds of easing before a bend is given up; in each, points move half way between others so far away as that a
@@ -66,7 +67,7 @@ def wire_path(polyline: Floats, *, radius: float, tolerance: float) -> WirePath 
     """
     curve = frozen(polyline, np.float64, (None, 3))
     spacing = float(_steps(curve).mean())
-    step = spacing / float(np.clip(STEPS_PER_RADIUS * spacing / radius, LEAST_STEPS, MOST_STEPS))
+    step = max(radius / STEPS_PER_RADIUS, spacing / MOST_STEPS)
     start = _evenly(_spline(curve), step)
     eased = _eased(start, radius=radius)
     if eased is None or float(np.linalg.norm(eased - start, axis=1).max()) > radius:
@@ -117,7 +118,7 @@ def _bends(points: Floats) -> Floats:
 
 def _eased(points: Floats, *, radius: float) -> Floats | None:
     """Return the points of a closed line moved where it bends too sharply until it does not; None if it still does."""
-    around = int(np.ceil(radius / float(_steps(points).mean())))
+    around = min(int(np.ceil(radius / float(_steps(points).mean()))), len(points) // 4)
     stride = max(around // STEPS_PER_RADIUS, 1)
     for _ in range(ROUNDS):
         sharp = _bends(points) > 1.0 / (SHARPEST * radius)

@@ -73,6 +73,7 @@ def test_a_corner_is_rounded_as_the_wire_bends_and_the_sides_stay() -> None:
 def test_a_wire_too_thick_for_the_curve_has_no_path() -> None:
     assert wire_path(circle(10), radius=11, tolerance=0.01) is None
     assert wire_path(square(10), radius=5, tolerance=0.01) is None
+    assert wire_path(circle(10), radius=1e5, tolerance=0.01) is None
 
 
 @pytest.mark.parametrize("gap", [2.0, 3.0])
