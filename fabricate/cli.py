@@ -18,6 +18,7 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TaskID, TextColumn, TimeElapsedColumn
 from typer.exceptions import TyperException
 
+from fabricate.batch.sheet import write_sheet
 from fabricate.batch.workers import Listener, Outcome, run_all
 from fabricate.checks.report import Check, report_json
 from fabricate.config.schema import json_schema
@@ -109,10 +110,16 @@ def run(
         Path, typer.Option(envvar="FABRICATE_CACHE", help="Folder that keeps what takes long to prepare.")
     ] = CACHE,
 ) -> None:
-    """Make the parts of each config: one folder with STL, 3MF, pictures and a report."""
+    """Make the parts of each config: one folder with STL, 3MF, pictures and a report.
+
+    Of several configs, contact-sheet.png shows all the pictures.
+    """
     store = Store(cache) if cache == CACHE else checked_store(cache)
     with _listener(out) as listener:
         outcomes = run_all(configs, out=out, overrides=settings or (), jobs=jobs, listener=listener, store=store)
+    sheet = write_sheet(outcomes, out) if len(outcomes) > 1 else None
+    if sheet is not None:
+        typer.echo(f"contact sheet -> {sheet}")
     raise typer.Exit(max(outcome.status for outcome in outcomes))
 
 

@@ -9,11 +9,15 @@ from functools import partial
 from pathlib import Path
 from time import perf_counter
 
+from fabricate.checks.facts import WireFacts
 from fabricate.checks.judge import judged_parts, read_part
+from fabricate.checks.judged_wire import judged_wire
 from fabricate.checks.measured import expectations, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
-from fabricate.checks.report import Report, report_json
-from fabricate.config import Config, FileConfig, SphereConfig, config_sha256, moved_config, resolved_toml
+from fabricate.checks.report import Check, Report, report_json
+from fabricate.checks.share import share_checks
+from fabricate.config import Config, FileConfig, PatternConfig, SphereConfig, config_sha256, moved_config, resolved_toml
+from fabricate.design.area_share import shared_cut, square_arc
 from fabricate.design.curve_wish import CurveWish
 from fabricate.design.designed import designed, grown
 from fabricate.duotone.duotone import Duotone
@@ -22,17 +26,21 @@ from fabricate.formats.limits import ReadLimits
 from fabricate.formats.reading import read_mesh
 from fabricate.formats.source import source_mesh
 from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.output.curve_svg import write_curve_svg
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
 from fabricate.output.sculpture import write_sculpture
+from fabricate.output.stl import write_stl
+from fabricate.picture.line_drawing import line_drawing
 from fabricate.prepare.density import check_room, finest_tile
 from fabricate.prepare.inspection import Inspection, inspected
 from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
-from fabricate.process import PROCESSES
+from fabricate.process import PROCESSES, Process
 from fabricate.solid.detailed import detailed_cut
-from fabricate.solid.settling import fitted_cut
+from fabricate.solid.settling import fitted_cut, has_room
 from fabricate.solid.solids import solids
+from fabricate.solid.wire import Wire, wire
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.cut_certificate import cut_certificate
 from fabricate.surface.tile_choice import TileWish, chosen_tiling
@@ -100,9 +108,11 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     certificate = cut_certificate(surface)
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
+    bent = _wire(surface, config)
     with complete_folder(out / name) as folder:
         watch.begin("files")
         paths = write_sculpture(folder, made.parts, list(surface.points[surface.curves]), name=name)
+        _write_curve_files(folder, surface, bent, config, name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
         wanted = expectations(
@@ -114,16 +124,19 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
             process=process,
         )
         judged = judged_parts([read_part(path) for path in paths], wanted)
+        pattern = pattern_facts(duotone, certificate, surface)
+        thread, alone = _judged_wire(folder, bent, process)
         report = Report(
             name=name,
             config_sha256=config_sha256(config),
             versions=_versions(),
             mesh=mesh_facts(body, replace(tiling, notes=limit + tiling.notes), surface),
-            pattern=pattern_facts(duotone, certificate, surface),
+            pattern=pattern,
             parts=judged.parts,
             fit=judged.fit,
-            checks=judged.checks,
+            checks=judged.checks + alone + share_checks(config.pattern.area_share, found=pattern.area_share["yellow"]),
             seconds=watch.ended(),
+            wire=thread,
         )
         write_whole(folder / "report.json", report_json(report).encode())
     return report
@@ -148,7 +161,7 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
     ReadError
         If a file is missing or damaged.
     """
-    name, sha256, judged = rechecked(paths, clearance=clearance)
+    name, sha256, judged, thread = rechecked(paths, clearance=clearance)
     return Report(
         name=name,
         config_sha256=sha256,
@@ -158,6 +171,7 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
         parts=judged.parts,
         fit=judged.fit,
         checks=judged.checks,
+        wire=thread,
     )
 
 
@@ -175,7 +189,7 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         clearance=clearance,
         thinnest=2.0 * process.wall_min + clearance,
         resized=pattern.tile_size == "auto",
-        rings=pattern.positions,
+        rings=_expected_rings(pattern),
         seed=prepare.seed,
         cage=not isinstance(source, FileConfig),
         round_limit=isinstance(source, SphereConfig),
@@ -184,21 +198,62 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         check_room(pattern.positions, tile_size=pattern.tile_size, clearance=clearance)
     if pattern.tile_size != "auto":
         return wish, ()
-    finest = finest_tile(feature, clearance, extent=source.size, rings=pattern.positions)
+    finest = finest_tile(feature, clearance, extent=source.size, rings=_expected_rings(pattern))
     return replace(wish, tile_size=finest.tile_size), (finest.limit,)
 
 
 def _curve_wish(config: Config, *, neck: float) -> CurveWish:
     pattern = config.pattern
-    return CurveWish(tree=pattern.tree, seed=pattern.seed, root=pattern.root, rings=pattern.positions, neck=neck)
+    rings = _expected_rings(pattern)
+    return CurveWish(tree=pattern.tree, seed=pattern.seed, root=pattern.root, rings=rings, neck=neck)
+
+
+def _expected_rings(pattern: PatternConfig) -> tuple[float, ...]:
+    """Return the rings, or about where the one will be for the area share: tiles and tree are chosen for them."""
+    return pattern.positions if pattern.area_share is None else (square_arc(pattern.area_share),)
 
 
 def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:
+    """Return the cut surface, with the rings that are asked for or the one that the area share needs."""
+    make, share = partial(_cut, duotone, tiling, config), config.pattern.area_share
+    if share is None:
+        return make(config.pattern.positions)
+    room = partial(has_room, clearance=config.solid.clearance)
+    return shared_cut(duotone, share=share, make=make, fits=room)
+
+
+def _cut(duotone: Duotone, tiling: Tiling, config: Config, rings: tuple[float, ...]) -> CutSurface:
     """Return the cut surface, with the detail of the input where new cells were made for it."""
-    rings, tolerance, clearance = config.pattern.positions, config.solid.tolerance, config.solid.clearance
+    tolerance, clearance = config.solid.tolerance, config.solid.clearance
     if tiling.surface is None or config.prepare.detail == "smooth":
         return fitted_cut(duotone, rings=rings, tolerance=tolerance, clearance=clearance)
     return detailed_cut(duotone, tiling.surface, rings=rings, tolerance=tolerance, clearance=clearance)
+
+
+def _wire(surface: CutSurface, config: Config) -> Wire | None:
+    """Return the wire along the curve, if one is asked for."""
+    if config.curve.wire is None:
+        return None
+    return wire(surface.points[surface.curves[0]], diameter=config.curve.wire, tolerance=config.solid.tolerance)
+
+
+def _write_curve_files(folder: Path, surface: CutSurface, bent: Wire | None, config: Config, *, name: str) -> None:
+    """Write the wire, and the drawings of the curve, that are asked for."""
+    if bent is not None:
+        write_stl(folder / f"{bent.part.name}.stl", bent.part)
+    curves, normals = surface.points[surface.curves], surface.normals[surface.curves]
+    for view in config.curve.views:
+        drawing = line_drawing(curves, normals, surface.points, surface.triangles, view)
+        lighter = config.curve.hidden == "lighter"
+        write_curve_svg(folder / f"curve-{view}.svg", drawing, title=name, with_hidden=lighter)
+
+
+def _judged_wire(folder: Path, bent: Wire | None, process: Process) -> tuple[WireFacts | None, tuple[Check, ...]]:
+    """Return the facts and checks of the wire's file, if there is one."""
+    if bent is None:
+        return None, ()
+    path = folder / f"{bent.part.name}.stl"
+    return judged_wire(path, diameter=bent.diameter, length=bent.length, process=process)
 
 
 def _versions() -> dict[str, str]:

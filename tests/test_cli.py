@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from PIL import Image
 from rich.console import Console
 
 from fabricate import cli
@@ -33,6 +34,7 @@ class FakeReport:
     ok: bool = True
     checks: tuple[FakeCheck, ...] = ()
     notes: tuple[str, ...] = ()
+    name: str = "good"
 
 
 FAILED = FakeReport(False, (FakeCheck(ok=False, message="gap is 0.1 mm", where=((1.0, 2.0, 3.5), (0.0, 0.0, 0.0))),))
@@ -128,6 +130,27 @@ def test_whatever_a_run_raises_on_purpose_is_one_line(
     monkeypatch.setattr(workers, "run", fail(error))
     said = call("run", "good.toml")
     assert (said.status, said.out, said.err) == (2, "", f"good: {error}\n")
+
+
+def test_several_configs_make_a_contact_sheet(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    def run(_: object, *, name: str, out: Path, **__: object) -> tuple[FakeReport, ...]:
+        (out / name).mkdir(parents=True)
+        Image.new("RGB", (60, 30)).save(out / name / "preview.png")
+        return (FakeReport(name=name),)
+
+    monkeypatch.setattr(workers, "run", run)
+    Path("better.toml").write_text('[source]\nshape = "torus"\n')
+    said = call("run", "good.toml", "better.toml")
+    sheet = Path("outputs/contact-sheet.png")
+    assert (said.status, said.err) == (0, "")
+    assert said.out.splitlines()[-1] == f"contact sheet -> {sheet}"
+    assert sheet.is_file()
+
+
+def test_one_config_makes_no_contact_sheet(call: Call, made: list[dict[str, object]]) -> None:
+    assert "contact sheet" not in call("run", "good.toml").out
+    assert len(made) == 1
+    assert not Path("outputs/contact-sheet.png").exists()
 
 
 def test_the_worst_of_several_counts_and_all_are_made(call: Call, made: list[dict[str, object]]) -> None:
@@ -300,7 +323,7 @@ def test_new_refuses_bad_names(call: Call, name: str) -> None:
 def test_schema_prints_json(call: Call) -> None:
     said = call("schema")
     assert said.status == 0
-    assert set(json.loads(said.out)["properties"]) == {"source", "prepare", "pattern", "solid", "process"}
+    assert set(json.loads(said.out)["properties"]) == {"source", "prepare", "pattern", "curve", "solid", "process"}
 
 
 def test_version(call: Call) -> None:

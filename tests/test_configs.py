@@ -31,6 +31,10 @@ def configs() -> Configs:
     return {path.stem: load_config(path) for path in PATHS}
 
 
+def test_no_two_have_one_name(configs: Configs) -> None:
+    assert len(configs) == len(PATHS)
+
+
 def test_there_are_enough() -> None:
     assert len(PATHS) >= 10
 

@@ -42,11 +42,12 @@ FILES = {
     *("yellow.stl", "blue.stl", "pair.3mf", "preview.png", "preview.glb"),
     *("curve.ply", "report.json", "config.toml"),
 }
-CONFIGS = sorted((Path(__file__).parents[1] / "configs").glob("*.toml"))
+CONFIGS = sorted((Path(__file__).parents[1] / "configs").rglob("*.toml"))
 ROUGH = ("pattern.tile_size=14mm", "solid.tolerance=0.4mm")
 FRAME = ("pattern.tile_size=10mm", "solid.tolerance=0.15mm")
 COARSE = {
     **dict.fromkeys(("double-torus", "triple-torus", "genus-6"), FRAME),
+    **dict.fromkeys(("genus-two", "genus-three", "genus-six"), FRAME),
     "cells-quads": ("solid.tolerance=0.4mm",),
     **dict.fromkeys(("cells-triangles", "cells-hexagons"), ("solid.tolerance=0.4mm", "prepare.detail=smooth")),
 }
@@ -97,11 +98,11 @@ def test_every_file_is_there_and_nothing_else(made: Path) -> None:
 def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None:
     assert set(report) == {
         *("name", "ok", "config_sha256", "versions", "mesh"),
-        *("pattern", "parts", "fit", "checks", "seconds"),
+        *("pattern", "parts", "fit", "wire", "checks", "seconds"),
     }
     assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm"}
     assert set(report["pattern"]) == {
-        *("tiles", "tile_size_mm", "tile_quality", "curves", "regions", "curve_length_mm"),
+        *("tiles", "tile_size_mm", "tile_quality", "curves", "regions", "curve_length_mm", "arc"),
         *("area_share", "handles", "neck_mm", "band_mm"),
     }
     assert set(report["pattern"]["tile_quality"]) == {
@@ -152,6 +153,46 @@ def test_the_resolved_config_makes_the_same_bytes(made: Path, tmp_path: Path) ->
     run(path, tmp_path / "again")
     for name in FILES - {"report.json"}:
         assert (tmp_path / "again" / "small" / name).read_bytes() == (made / name).read_bytes(), name
+
+
+def test_an_area_share_is_met_and_its_arc_reported(config: Path, tmp_path: Path) -> None:
+    assert run(config, tmp_path, "pattern.area_share=0.4").ok
+    found = json.loads((tmp_path / "small" / "report.json").read_text())
+    assert found["pattern"]["area_share"]["yellow"] == pytest.approx(0.4, abs=0.001)
+    assert 0.4 < found["pattern"]["arc"] < 0.47
+    assert [check["ok"] for check in found["checks"] if check["code"] == "pattern.area_share"] == [True]
+
+
+@pytest.fixture(scope="module")
+def with_curve(config: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a run that was asked for a wire and two drawings."""
+    out = tmp_path_factory.mktemp("curve")
+    assert run(config, out, "curve.wire=2mm", 'curve.views=["front", "top"]', "solid.tolerance=0.2mm").ok
+    return out / "small"
+
+
+def test_wire_and_drawings_appear_where_asked_for(with_curve: Path) -> None:
+    more = {"wire.stl", "curve-front.svg", "curve-top.svg"}
+    assert {path.name for path in with_curve.iterdir()} == FILES | more
+    wire = json.loads((with_curve / "report.json").read_text())["wire"]
+    assert set(wire) == {
+        *("file", "triangles", "volume_mm3", "area_mm2", "genus", "components", "watertight"),
+        *("self_intersections", "wall_mm", "diameter_mm", "length_mm"),
+    }
+    assert (wire["file"], wire["genus"], wire["self_intersections"], wire["diameter_mm"]) == ("wire.stl", 1, 0, 2.0)
+    assert wire["volume_mm3"] == pytest.approx(np.pi * wire["length_mm"], rel=0.06)
+    if JUDGE:
+        command = [sys.executable, JUDGE, str(with_curve / "wire.stl")]
+        assert subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
+def test_check_judges_the_wire_as_well(with_curve: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    copy = Path(shutil.copytree(with_curve, tmp_path / "small"))
+    assert status("check", str(copy)) == 0
+    assert "passed  wire.genus" in capsys.readouterr().out
+    move_vertex(copy / "wire.stl", by=8.0)
+    assert status("check", str(copy)) == 1
+    assert "FAILED  wire.recorded_volume" in capsys.readouterr().out
 
 
 def test_another_seed_makes_another_pair(made: Path, config: Path, tmp_path: Path) -> None:
@@ -289,6 +330,9 @@ WRONG = {
     "too many levels": ('shape = "torus"', ["pattern.levels=12"], "levels"),
     "no key": ('shape = "torus"', ["=2"], "key=value"),
     "large tiles": ('shape = "torus"', ["pattern.tile_size=500mm"], "tile"),
+    "all yellow": ('shape = "torus"', ["pattern.area_share=0.97", "pattern.tile_size=20mm"], "yellow can have 0.2"),
+    "thick wire": ('shape = "torus"', ["curve.wire=30mm", "pattern.tile_size=20mm"], "at most"),
+    "unknown view": ('shape = "torus"', ['curve.views=["above"]'], "front"),
     "no thickness": ('shape = "torus"', ["solid.thickness=0mm"], "thickness"),
     "unknown key": ('shape = "torus"\nsizes = "60 mm"', [], "size"),
     "unknown shape": ('shape = "tors"', [], "torus"),
@@ -342,13 +386,14 @@ def test_every_config_makes_a_sound_pair(path: Path, tmp_path: Path) -> None:
     report = run(path, tmp_path, *COARSE.get(path.stem, ROUGH))
     assert not failed(report, with_printability=False)
     assert report.pattern is not None
-    assert (report.pattern.curves, report.pattern.regions) == (1, 2)
     config = load_config(path)
+    curves = len(config.pattern.positions)
+    assert (report.pattern.curves, report.pattern.regions) == (curves, curves + 1)
     if config.prepare.cells in ("quads", "triangles", "hexagons"):
         assert report.pattern.tile_size_mm == pytest.approx(config.pattern.tile_size, rel=0.15)
     if JUDGE:
         folder, clearance = tmp_path / path.stem, config.solid.clearance
-        parts = [str(folder / f"{name}.stl") for name in ("yellow", "blue")]
+        parts = [str(folder / f"{name}.stl") for name in report.parts]
         sizes = ["--clearance", str(clearance)] if clearance else []
         judged = subprocess.run([sys.executable, JUDGE, *parts, *sizes], capture_output=True, text=True, check=False)
         assert judged.returncode == 0, judged.stdout + judged.stderr

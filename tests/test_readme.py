@@ -71,6 +71,6 @@ def test_links_lead_somewhere() -> None:
 
 
 def test_every_config_is_listed_with_its_own_words() -> None:
-    for path in sorted((ROOT / "configs").glob("*.toml")):
+    for path in sorted((ROOT / "configs").rglob("*.toml")):
         sentence = path.read_text().splitlines()[0].lstrip("# ").strip()
-        assert f"[`{path.stem}`](configs/{path.name}) | {sentence} |" in README
+        assert f"[`{path.stem}`]({path.relative_to(ROOT)}) | {sentence} |" in README

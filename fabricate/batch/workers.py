@@ -52,11 +52,14 @@ class Outcome:
         0: made, and every check passed; 1: made, but a check failed; 2: not made.
     message : str
         "ok" and what was skipped, the sentences of the failed checks, or why nothing was made; one line.
+    made : tuple of (str, bool)
+        Names of the folders that it has made, and whether every check passed.
     """
 
     name: str
     status: int
     message: str
+    made: tuple[tuple[str, bool], ...] = ()
 
 
 class Listener(Protocol):
@@ -194,7 +197,8 @@ def _made(order: _Order, progress: Callable[[str], None]) -> Outcome:
     except Exception as error:
         error.add_note(f"while making {order.path}")
         raise
-    return Outcome(order.name, 0 if all(report.ok for report in reports) else 1, _verdicts(reports))
+    status = 0 if all(report.ok for report in reports) else 1
+    return Outcome(order.name, status, _verdicts(reports), tuple((report.name, report.ok) for report in reports))
 
 
 def _verdicts(reports: Sequence[Report]) -> str:

@@ -103,6 +103,9 @@ class PatternFacts:
         How even the tiles are.
     curve_length_mm : float
         Length of the curve on the surface, of all curves together.
+    arc : float or None
+        Where the curve crosses tile sides, from their yellow ends: as asked for, or as the area share needs it. None
+        where there are several curves.
     area_share : mapping of str to float
         Share of the surface, between 0 and 1, by the region's name, from yellow to blue.
     handles : mapping of str to int
@@ -119,6 +122,7 @@ class PatternFacts:
     curves: int
     regions: int
     curve_length_mm: float
+    arc: float | None
     area_share: Mapping[str, float]
     handles: Mapping[str, int]
     neck_mm: Spread
@@ -158,6 +162,22 @@ class PartFacts:
     watertight: bool
     self_intersections: int
     wall_mm: Spread | None
+
+
+@dataclass(frozen=True)
+class WireFacts(PartFacts):
+    """The wire along the curve, as its file holds it.
+
+    Attributes
+    ----------
+    diameter_mm : float
+        As it was asked for.
+    length_mm : float
+        Of wire that it takes, along its middle.
+    """
+
+    diameter_mm: float
+    length_mm: float
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,8 @@ The codes of all checks, which other programs may rely on; PART stands for the n
 
 FIT is "fit" for two parts, and "fit.FIRST-SECOND" with their names for each pair of more. A single part has
 no fit.* checks but `fit.process_gap`, and only a pattern that is known to have bands has `pattern.band`. What is not
-known or could not be measured is skipped, not left out.
+known or could not be measured is skipped, not left out. A run that was asked for an area share adds
+`pattern.area_share` (see `checks.share`), and one with a wire the PART.* checks of "wire".
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 from manifold3d import Manifold
@@ -70,6 +72,13 @@ class Judgement:
 
     parts: Mapping[str, PartFacts]
     fit: FitFacts | None
+    checks: tuple[Check, ...]
+
+
+class JudgedAlone(NamedTuple):
+    """Facts and checks of a part that goes together with no others."""
+
+    facts: PartFacts
     checks: tuple[Check, ...]
 
 
@@ -135,6 +144,12 @@ def judged_parts(parts: Sequence[Part], expectations: Expectations) -> Judgement
         checks.append(band_check(expectations.band, clearance=clearance, process=process))
     facts = MappingProxyType({each.part.name: each.facts for each in judged})
     return Judgement(facts, together.facts if together else None, tuple(checks))
+
+
+def judged_alone(part: Part, expectations: Expectations) -> JudgedAlone:
+    """Measure one part and check what can be said of it by itself: the codes that begin with PART above."""
+    judged = _judged_part(part, expectations)
+    return JudgedAlone(judged.facts, judged.checks)
 
 
 def _check_names(parts: Sequence[Part]) -> None:

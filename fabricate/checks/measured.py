@@ -10,6 +10,7 @@ import numpy as np
 from fabricate.arrays import Floats
 from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
 from fabricate.checks.facts import Distance, MeshFacts, PatternFacts, Spread, Xyz
+from fabricate.design.area_share import area_shares
 from fabricate.duotone.certificate import Certificate, RegionFacts
 from fabricate.duotone.duotone import Duotone
 from fabricate.mesh.closed import genus
@@ -48,9 +49,7 @@ def _distance(whole: TriangleMesh, surface: CutSurface) -> Distance:
 
 def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurface) -> PatternFacts:
     """Return what was counted and measured of the pattern on the cut surface."""
-    corners = surface.points[surface.triangles]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    shares = np.bincount(surface.regions, area) / area.sum()
+    shares = area_shares(surface)
     curves = surface.points[surface.curves]
     length = float(np.linalg.norm(np.roll(curves, -1, axis=1) - curves, axis=2).sum())
     names = region_names(len(certificate.regions))
@@ -62,6 +61,7 @@ def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurfac
         curves=certificate.curves,
         regions=sum(region.components for region in certificate.regions),
         curve_length_mm=length,
+        arc=float(surface.rings[0]) if len(surface.rings) == 1 else None,
         area_share=MappingProxyType(dict(zip(names, shares.tolist(), strict=True))),
         handles=MappingProxyType({name: region.handles for name, region in _named(certificate)}),
         neck_mm=_spread(tile_necks(surface)[0]),

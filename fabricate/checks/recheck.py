@@ -11,22 +11,25 @@ from pydantic import BaseModel, ValidationError
 
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Expectations
+from fabricate.checks.facts import WireFacts
 from fabricate.checks.judge import Judgement, judged_parts, read_part
+from fabricate.checks.judged_wire import judged_wire
 from fabricate.checks.measured import expected_genus
 from fabricate.config import load_config
 from fabricate.errors import ReadError
-from fabricate.process import PROCESSES
+from fabricate.process import PROCESSES, Process
 
 VOLUME_MOVED = 1e-4
 """A volume that differs by more than this share from the one in the report has moved."""
 
 
 class Recheck(NamedTuple):
-    """What was judged, its name, the hash of its config if it has one, and the outcome."""
+    """What was judged, its name, the hash of its config if it has one, the outcome, and the wire's if there is one."""
 
     name: str
     config_sha256: str
     judgement: Judgement
+    wire: WireFacts | None = None
 
 
 class _Pattern(BaseModel):
@@ -38,6 +41,11 @@ class _Part(BaseModel):
     volume_mm3: float
 
 
+class _Wire(_Part):
+    diameter_mm: float
+    length_mm: float
+
+
 class _Recorded(BaseModel):
     """What is needed of a report.json."""
 
@@ -45,6 +53,7 @@ class _Recorded(BaseModel):
     config_sha256: str
     pattern: _Pattern
     parts: dict[str, _Part]
+    wire: _Wire | None = None
 
 
 def rechecked(paths: Sequence[Path], *, clearance: float | None) -> Recheck:
@@ -87,11 +96,24 @@ def _rechecked_folder(folder: Path, clearance: float | None) -> Recheck:
         for name, part in recorded.parts.items()
         if name in judgement.parts
     )
+    facts, checks = _rechecked_wire(folder, recorded.wire, PROCESSES[config.process.name])
     return Recheck(
         recorded.name,
         recorded.config_sha256,
-        Judgement(judgement.parts, judgement.fit, judgement.checks + moved),
+        Judgement(judgement.parts, judgement.fit, judgement.checks + moved + checks),
+        facts,
     )
+
+
+def _rechecked_wire(
+    folder: Path, recorded: _Wire | None, process: Process
+) -> tuple[WireFacts | None, tuple[Check, ...]]:
+    """Return the facts and checks of a folder's wire, if its report has one."""
+    if recorded is None:
+        return None, ()
+    path = folder / recorded.file
+    facts, checks = judged_wire(path, diameter=recorded.diameter_mm, length=recorded.length_mm, process=process)
+    return facts, (*checks, _volume_moved(path.stem, facts.volume_mm3, recorded.volume_mm3))
 
 
 def _volume_moved(name: str, found: float, recorded: float) -> Check:

@@ -1,6 +1,7 @@
 """Everything a run can be asked: each key with default, bounds and one line of meaning; and reading it."""
 
 from fabricate.config.config import Config
+from fabricate.config.curve_config import CurveConfig
 from fabricate.config.loading import load_config
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
@@ -20,6 +21,7 @@ from fabricate.config.source_config import (
 __all__ = [
     "Config",
     "CubeConfig",
+    "CurveConfig",
     "FileConfig",
     "FrameConfig",
     "KnotConfig",

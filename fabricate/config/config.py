@@ -1,4 +1,4 @@
-"""The whole config: its five sections, and what they owe each other."""
+"""The whole config: its six sections, and what they owe each other."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Self
 from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
+from fabricate.config.curve_config import CurveConfig
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig, with_process_defaults
@@ -27,6 +28,8 @@ class Config(BaseModel):
     """Repair, components, cells and sharp edges of the mesh."""
     pattern: PatternConfig = PatternConfig()
     """The curve."""
+    curve: CurveConfig = CurveConfig()
+    """What else is made of the curve."""
     solid: SolidConfig = SolidConfig()
     """The parts."""
     process: ProcessConfig = ProcessConfig()
@@ -46,6 +49,9 @@ class Config(BaseModel):
         if solid.clearance >= 4 * solid.thickness:
             limit = f"less than four times the thickness, {format_length(4 * solid.thickness)}"
             raise _too_large("solid.clearance", solid.clearance, limit)
+        rings = len(self.pattern.positions)
+        if self.curve.wire is not None and rings > 1:
+            raise wrong_value("curve.wire", f"a wire runs along one curve, found pattern.rings of {rings}: remove one")
         if isinstance(tile, float) and tile > size:
             limit = f"a tile that is not larger than the body, {format_length(size)}"
             raise _too_large("pattern.tile_size", tile, limit)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from types import NoneType
-from typing import Literal, get_args, get_origin
+from types import NoneType, UnionType
+from typing import Literal, Union, get_args, get_origin
 
 from pydantic import BeforeValidator, PlainSerializer
 from pydantic.fields import FieldInfo
@@ -45,11 +45,9 @@ def _without_words(field: FieldInfo) -> tuple[tuple[str, ...], FieldInfo]:
 
     TOML has no null, so None is no value.
     """
-    if get_origin(field.annotation) is Literal:
+    if get_origin(field.annotation) not in (Union, UnionType):
         return (), field
     members = [member for member in get_args(field.annotation) if member is not NoneType]
-    if not members:
-        return (), field
     words = tuple(word for member in members if get_origin(member) is Literal for word in get_args(member))
     (other,) = (member for member in members if get_origin(member) is not Literal)
     return words, FieldInfo.from_annotation(other)

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 from types import MappingProxyType
 from typing import get_args
 
+from fabricate.config.curve_config import CurveConfig
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
@@ -19,6 +20,7 @@ SECTIONS: Mapping[str, tuple[type[Section], ...]] = MappingProxyType(
         "source": get_args(SourceConfig),
         "prepare": (PrepareConfig,),
         "pattern": (PatternConfig,),
+        "curve": (CurveConfig,),
         "solid": (SolidConfig,),
         "process": (ProcessConfig,),
     }

@@ -9,12 +9,13 @@ from fabricate.config.keys import keys_of, nearest_key
 from fabricate.errors import ConfigError
 
 _REPLACES = {
-    "pattern.arc": "rings",
-    "pattern.levels": "tile_size",
-    "pattern.rings": "arc",
-    "pattern.tile_size": "levels",
-    "source.shape": "path",
-    "source.path": "shape",
+    "pattern.arc": ("rings", "area_share"),
+    "pattern.area_share": ("arc", "rings"),
+    "pattern.levels": ("tile_size",),
+    "pattern.rings": ("arc", "area_share"),
+    "pattern.tile_size": ("levels",),
+    "source.shape": ("path",),
+    "source.path": ("shape",),
 }
 
 
@@ -53,5 +54,5 @@ def with_setting(document: dict[str, Any], setting: Setting) -> dict[str, Any]:
     table = document.get(section, {})
     if not isinstance(table, dict):
         return document  # validation says that a section was expected
-    kept = {other: found for other, found in table.items() if other != _REPLACES.get(setting.key)}
+    kept = {other: found for other, found in table.items() if other not in _REPLACES.get(setting.key, ())}
     return {**document, section: {**kept, name: setting.value}}

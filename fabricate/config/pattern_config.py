@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
@@ -10,6 +12,11 @@ from fabricate.config.length import Length
 from fabricate.config.point import Point
 from fabricate.config.ring_positions import HIGHEST, LOWEST, RING_DESIGNS, RingDesign, Rings
 from fabricate.config.section import Section, wrong_value
+
+ALTERNATIVES: Mapping[str, str] = MappingProxyType({"levels": "tile_size", "rings": "arc", "area_share": "arc"})
+"""Keys that are given instead of others, and these others, which have a default."""
+
+_ONE_OF_THREE = "expected one of arc, rings and area_share"
 
 
 class PatternConfig(Section):
@@ -31,23 +38,24 @@ class PatternConfig(Section):
     """Where the curve crosses tile edges, from the yellow end; more gives yellow a larger share."""
     rings: RingDesign | Rings | None = Field(default=None, examples=["three"])
     """Several such places, for bands between yellow and blue along the whole curve; instead of arc."""
+    area_share: Annotated[float, Field(gt=0, lt=1)] | None = Field(default=None, examples=[0.6])
+    """Yellow's share of the surface, met within 0.001 by the arc position that gives it; instead of arc."""
 
     @model_validator(mode="before")
     @classmethod
-    def _levels_replace_the_default(cls, data: object) -> object:
-        return {"tile_size": None, **data} if isinstance(data, dict) and "levels" in data else data
-
-    @model_validator(mode="before")
-    @classmethod
-    def _rings_replace_the_default(cls, data: object) -> object:
-        return {"arc": None, **data} if isinstance(data, dict) and "rings" in data else data
+    def _alternatives_replace_defaults(cls, data: object) -> object:
+        if not isinstance(data, dict):
+            return data
+        return {**{default: None for key, default in ALTERNATIVES.items() if key in data}, **data}
 
     @model_validator(mode="after")
-    def _one_of_two(self) -> Self:
+    def _one_of_each(self) -> Self:
         if (self.levels is None) == (self.tile_size is None):
             raise wrong_value("pattern.levels", "expected either tile_size or levels, not both: remove one")
-        if (self.rings is None) == (self.arc is None):
-            raise wrong_value("pattern.rings", "expected either rings or arc, not both: remove one")
+        found = [key for key in ("arc", "rings", "area_share") if getattr(self, key) is not None]
+        if len(found) != 1:
+            what = " and ".join(found) or "none"
+            raise wrong_value(f"pattern.{found[-1] if found else 'arc'}", f"{_ONE_OF_THREE}, found {what}: keep one")
         return self
 
     @property

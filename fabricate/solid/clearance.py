@@ -74,10 +74,7 @@ def check_necks(surface: CutSurface, *, clearance: float) -> None:
     ------
     SolidError
     """
-    necks, areas = tile_necks(surface)[0], tile_areas(surface)
-    order = np.argsort(necks)
-    covered = np.cumsum(areas[order])
-    neck = float(necks[order][np.searchsorted(covered, REFUSED * covered[-1])])
+    neck = narrow_neck(surface)
     if clearance >= neck:
         raise SolidError(
             f"a clearance of {clearance:g} mm leaves nothing of the necks on a quarter of the surface, which are at "
@@ -93,6 +90,14 @@ def check_necks(surface: CutSurface, *, clearance: float) -> None:
                 f"most {width:.3g} mm wide; ask for a smaller solid.clearance, a larger pattern.tile_size or "
                 f"pattern.rings that are more than {spacing * clearance / width:.3g} apart there, not {spacing:.3g}"
             )
+
+
+def narrow_neck(surface: CutSurface) -> float:
+    """Return the width, mm, that the necks on a quarter of the surface do not have."""
+    necks, areas = tile_necks(surface)[0], tile_areas(surface)
+    order = np.argsort(necks)
+    covered = np.cumsum(areas[order])
+    return float(necks[order][np.searchsorted(covered, REFUSED * covered[-1])])
 
 
 def ray_sides(surface: CutSurface, points: Floats) -> tuple[RaySides, ...]:

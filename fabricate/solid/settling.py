@@ -16,7 +16,7 @@ import numpy as np
 from fabricate.arrays import Mask
 from fabricate.duotone.duotone import Duotone
 from fabricate.errors import SolidError
-from fabricate.solid.clearance import check_necks, clearance_shares, moved_copies, ray_sides, too_near
+from fabricate.solid.clearance import check_necks, clearance_shares, moved_copies, narrow_neck, ray_sides, too_near
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
 from fabricate.surface.neck import tile_areas
@@ -75,6 +75,13 @@ def settled(duotone: Duotone, *, clearance: float, rings: Sequence[float], resol
         quads = slid_tiles(quads, tight)
         surface = cut(replace(duotone, quads=quads), LimitSurface.of(quads), rings=rings, resolution=resolution)
     return surface
+
+
+def has_room(surface: CutSurface, *, clearance: float) -> bool:
+    """Tell whether the clearance, mm, leaves necks, and fits into so many tiles that the others can settle."""
+    if clearance >= narrow_neck(surface):
+        return False
+    return clearance == 0.0 or bool(tight_tiles(surface, clearance=clearance).mean() <= MOST_TIGHT)
 
 
 def tight_tiles(surface: CutSurface, *, clearance: float) -> Mask:

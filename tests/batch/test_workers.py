@@ -102,7 +102,7 @@ def test_a_run_gets_its_config_name_folder_and_listener(
     )
     assert seen == [(5, "a", tmp_path, Store(tmp_path))]
     assert log.stages == [("a", "read"), ("a", "checks")]
-    assert outcomes == (Outcome("a", 0, "ok"),) == tuple(log.outcomes)
+    assert outcomes == (Outcome("a", 0, "ok", (("a", True),)),) == tuple(log.outcomes)
 
 
 def test_notes_are_told_whatever_the_checks_say(config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,14 +117,16 @@ def test_failed_checks_are_told_and_passed_ones_are_not(
 ) -> None:
     checks = (FakeCheck(True, "closed"), FakeCheck(False, "overlap"), FakeCheck(False, "gap too small"))
     outcome = outcome_of(config("a"), monkeypatch, FakeReport(False, checks))
-    assert outcome == Outcome("a", 1, "overlap; gap too small")
+    assert outcome == Outcome("a", 1, "overlap; gap too small", (("a", False),))
 
 
 def test_a_skipped_check_is_not_a_passed_one(config: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
     skipped = FakeCheck(False, "no slicer", skipped=True)
     passed = outcome_of(config("a"), monkeypatch, FakeReport(True, (skipped,)))
-    assert passed == Outcome("a", 0, "ok, but skipped: no slicer")
-    assert outcome_of(config("a"), monkeypatch, FakeReport(False, (skipped,))) == Outcome("a", 1, "no slicer")
+    assert passed == Outcome("a", 0, "ok, but skipped: no slicer", (("a", True),))
+    assert outcome_of(config("a"), monkeypatch, FakeReport(False, (skipped,))) == Outcome(
+        "a", 1, "no slicer", (("a", False),)
+    )
 
 
 @pytest.mark.parametrize("jobs", [1, 4])
@@ -207,4 +209,4 @@ def test_several_bodies_are_told_by_name(config: Callable[..., Path], monkeypatc
     bad = FakeReport(False, (FakeCheck(ok=False, message="too thin"),), name="a-2")
     use(monkeypatch, lambda *_, **__: (FakeReport(name="a-1"), bad))
     (outcome,) = run_all([config("a")], out=Path("out"), overrides=(), jobs=1, listener=Log())
-    assert outcome == Outcome("a", 1, "a-1: ok; a-2: too thin")
+    assert outcome == Outcome("a", 1, "a-1: ok; a-2: too thin", (("a-1", True), ("a-2", False)))

@@ -65,6 +65,7 @@ def test_a_pattern_is_counted_and_measured(duotone: Duotone, surface: CutSurface
     assert sum(facts.handles.values()) == 1
     assert sum(facts.area_share.values()) == pytest.approx(1)
     assert facts.area_share["yellow"] == pytest.approx(0.5, abs=0.05)
+    assert facts.arc == 0.5
     assert facts.neck_mm.min <= facts.neck_mm.median < facts.tile_size_mm
 
 

@@ -60,6 +60,7 @@ def report(
             curves=1,
             regions=2,
             curve_length_mm=123.456789,
+            arc=0.5,
             area_share={"yellow": 0.49, "blue": 0.51},
             handles={"yellow": 0, "blue": 1},
             neck_mm=Spread(1.1, 2.2),
@@ -82,14 +83,14 @@ def content(made: Report) -> Any:
 def test_keys_are_those_of_the_contract() -> None:
     found = content(report(gap=Gap(0.29, (1.0, 2.0, 3.0)), play=Play(0.6, 0.6, 0.6, 1.0, 2.0, 3.0)))
     assert list(found) == [
-        "name", "ok", "config_sha256", "versions", "mesh", "pattern", "parts", "fit", "checks", "seconds",
+        "name", "ok", "config_sha256", "versions", "mesh", "pattern", "parts", "fit", "wire", "checks", "seconds",
     ]  # fmt: skip
     assert found["mesh"] == {
         "vertices": 8, "faces": 6, "genus": 0, "size_mm": [10, 20, 30],
         "repairs": {"faces flipped": 2}, "notes": [], "distance_mm": None,
     }  # fmt: skip
     assert set(found["pattern"]) >= {
-        "tiles", "curves", "regions", "curve_length_mm", "area_share", "handles", "neck_mm",
+        "tiles", "curves", "regions", "curve_length_mm", "arc", "area_share", "handles", "neck_mm",
     }  # fmt: skip
     assert found["pattern"]["area_share"] == {"yellow": 0.49, "blue": 0.51}
     assert found["pattern"]["handles"] == {"yellow": 0, "blue": 1}

@@ -45,6 +45,9 @@ def test_an_override_replaces_its_alternative(read: Read) -> None:
     bent = TORUS + "[pattern]\narc = 0.4"
     assert read(bent, "pattern.rings=three").pattern.arc is None
     assert read(bent, "pattern.rings=three", "pattern.arc=0.6").pattern.positions == (0.6,)
+    assert read(bent, "pattern.area_share=0.4").pattern == PatternConfig(area_share=0.4)
+    assert read(TORUS, "pattern.area_share=0.6", "pattern.rings=three").pattern == PatternConfig(rings="three")
+    assert read(TORUS + "[pattern]\narea_share = 0.6", "pattern.arc=0.4").pattern == PatternConfig(arc=0.4)
     assert isinstance(read('[source]\npath = "a.obj"', "source.shape=cube").source, CubeConfig)
     assert isinstance(read(TORUS, "source.path=a.obj").source, FileConfig)
 
@@ -66,6 +69,7 @@ def test_the_last_override_of_a_key_wins(read: Read) -> None:
         ("solid.thickness=2", ("solid.thickness", "unit", '"2 mm"')),
         ("solid.core=bleu", ("solid.core", 'did you mean "blue"?')),
         ("pattern.seed=1\nlevels=2", ("pattern.seed", "whole number")),
+        ('curve.views=["above"]', ("curve.views[0]", '"front"', '"above"')),
         ("pattern.seed=", ("pattern.seed", "whole number", '""')),
         ("pattern.seed=" + "[" * 5000, ("pattern.seed", "whole number", "...")),
     ],

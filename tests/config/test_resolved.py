@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from fabricate.config import (
     Config,
     CubeConfig,
+    CurveConfig,
     FileConfig,
     FrameConfig,
     KnotConfig,
@@ -35,16 +36,25 @@ SOURCE = st.one_of(
     st.builds(KnotConfig, size=SIZES, across=st.integers(3, 64)),
     st.builds(FileConfig, path=st.text(st.characters(exclude_categories=["Cs", "Cc"]), min_size=1), size=SIZES),
 )
-PATTERN = st.builds(
-    PatternConfig,
-    tile_size=st.floats(min_value=1e-6, max_value=50),
-    tree=st.sampled_from(["random", "breadth-first", "depth-first"]),
-    seed=st.integers(min_value=0),
-    arc=st.floats(0.293, 0.707, exclude_min=True, exclude_max=True),
-) | st.builds(
-    PatternConfig,
-    levels=st.integers(0, 12),
-    rings=st.sampled_from(["two", "three", "four"]) | st.floats(0.3, 0.7).map(lambda ring: (ring, ring + 0.005)),
+PATTERN = (
+    st.builds(
+        PatternConfig,
+        tile_size=st.floats(min_value=1e-6, max_value=50),
+        tree=st.sampled_from(["random", "breadth-first", "depth-first"]),
+        seed=st.integers(min_value=0),
+        arc=st.floats(0.293, 0.707, exclude_min=True, exclude_max=True),
+    )
+    | st.builds(
+        PatternConfig,
+        levels=st.integers(0, 12),
+        rings=st.sampled_from(["two", "three", "four"]) | st.floats(0.3, 0.7).map(lambda ring: (ring, ring + 0.005)),
+    )
+    | st.builds(PatternConfig, area_share=st.floats(0, 1, exclude_min=True, exclude_max=True))
+)
+CURVE = st.builds(
+    CurveConfig,
+    views=st.lists(st.sampled_from(["front", "back", "left", "right", "top", "bottom"])).map(tuple),
+    hidden=st.sampled_from(["left-out", "lighter"]),
 )
 SOLID = st.builds(
     SolidConfig,
@@ -54,7 +64,12 @@ SOLID = st.builds(
     tolerance=st.floats(min_value=1e-6, max_value=10),
 )
 CONFIGS = st.builds(
-    Config, source=SOURCE, pattern=PATTERN, solid=SOLID, process=st.builds(ProcessConfig, name=PROCESS_NAMES)
+    Config,
+    source=SOURCE,
+    pattern=PATTERN,
+    curve=CURVE,
+    solid=SOLID,
+    process=st.builds(ProcessConfig, name=PROCESS_NAMES),
 )
 
 
