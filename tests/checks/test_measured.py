@@ -105,7 +105,7 @@ def test_solids_have_the_handles_of_both_of_their_sides(core: Core, genus: tuple
 def test_a_multitone_is_counted_and_measured_by_the_names_of_its_regions(duotone: Duotone) -> None:
     surface = fitted_cut(duotone, rings=(0.4, 0.48, 0.6), tolerance=0.3)
     certificate = cut_certificate(surface)
-    facts = pattern_facts(duotone, certificate, surface)
+    facts = pattern_facts(Design(duotone), certificate, surface)
     names = ["yellow", "band-1", "band-2", "blue"]
     assert (facts.curves, facts.regions) == (3, 4)
     assert list(facts.area_share) == list(facts.handles) == names
