@@ -323,7 +323,15 @@ def test_new_refuses_bad_names(call: Call, name: str) -> None:
 def test_schema_prints_json(call: Call) -> None:
     said = call("schema")
     assert said.status == 0
-    assert set(json.loads(said.out)["properties"]) == {"source", "prepare", "pattern", "curve", "solid", "process"}
+    assert set(json.loads(said.out)["properties"]) == {
+        "source",
+        "prepare",
+        "pattern",
+        "curve",
+        "field",
+        "solid",
+        "process",
+    }
 
 
 def test_version(call: Call) -> None:

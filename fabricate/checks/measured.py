@@ -11,8 +11,9 @@ from fabricate.arrays import Floats
 from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
 from fabricate.checks.facts import Distance, MeshFacts, PatternFacts, Spread, Xyz
 from fabricate.design.area_share import area_shares
+from fabricate.design.designed import Design
 from fabricate.duotone.certificate import Certificate, RegionFacts
-from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.tile_locks import TileLocks
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.tile_quality import tile_quality
@@ -47,8 +48,9 @@ def _distance(whole: TriangleMesh, surface: CutSurface) -> Distance:
     return Distance(found.mean, found.p999, found.max, (x, y, z))
 
 
-def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurface) -> PatternFacts:
+def pattern_facts(design: Design, certificate: Certificate, surface: CutSurface) -> PatternFacts:
     """Return what was counted and measured of the pattern on the cut surface."""
+    duotone, locks = design.duotone, design.locks
     shares = area_shares(surface)
     curves = surface.points[surface.curves]
     length = float(np.linalg.norm(np.roll(curves, -1, axis=1) - curves, axis=2).sum())
@@ -66,6 +68,8 @@ def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurfac
         handles=MappingProxyType({name: region.handles for name, region in _named(certificate)}),
         neck_mm=_spread(tile_necks(surface)[0]),
         band_mm=MappingProxyType(dict(zip(names[1:-1], bands, strict=True))),
+        alignment=design.alignment,
+        locked=None if locks is None else _locked(locks),
     )
 
 
@@ -75,6 +79,10 @@ def _named(certificate: Certificate) -> Iterable[tuple[str, RegionFacts]]:
 
 def _spread(widths: Floats) -> Spread:
     return Spread(float(widths.min()), float(np.median(widths)))
+
+
+def _locked(locks: TileLocks) -> Mapping[str, int]:
+    return MappingProxyType({"yellow": int(locks.yellow.sum()), "blue": int(locks.blue.sum())})
 
 
 def expectations(

@@ -35,13 +35,8 @@ def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
         return Config.model_validate(document, context=ConfigFolder(path.parent))
     except ValidationError as error:
         complaint = first_complaint(error, document)
-        origin = "--set" if any(_part_of(complaint.key, setting.key) for setting in settings) else path
+        origin = "--set" if any(setting.holds(complaint.key) for setting in settings) else path
         raise ConfigError(f"{origin}: {complaint.key}: {complaint.sentence}") from None
-
-
-def _part_of(key: str, whole: str) -> bool:
-    """Tell whether a dotted key is another one, or an entry of its list or table."""
-    return key == whole or key.startswith((f"{whole}.", f"{whole}["))
 
 
 def _read_document(path: Path) -> dict[str, Any]:
