@@ -24,8 +24,8 @@ def alignment_costs(quads: QuadMesh, directions: Floats) -> Floats:
         A unit tangent vector for each tile; zero, for which both are 0, where there is none.
     """
     corners = limit_vertices(quads)[quads.tiles]
-    diagonals = unit(corners[:, 2:] - corners[:, :2])
-    costs: Floats = np.abs(np.einsum("tkj,tj->tk", diagonals, directions))
+    diagonals = [unit(corners[:, k + 2] - corners[:, k]) for k in (0, 1)]
+    costs: Floats = np.abs(np.stack([(each * directions).sum(axis=1) for each in diagonals], axis=1))
     return costs
 
 
