@@ -16,8 +16,10 @@ from fabricate.checks.report import Report, report_json
 from fabricate.config import Config, FileConfig, SphereConfig, config_sha256, moved_config, resolved_toml
 from fabricate.design.curve_wish import CurveWish
 from fabricate.design.designed import designed, grown
+from fabricate.design.field import FieldWish
 from fabricate.duotone.duotone import Duotone
 from fabricate.errors import MeshError
+from fabricate.formats.field_source import field_source
 from fabricate.formats.limits import ReadLimits
 from fabricate.formats.reading import read_mesh
 from fabricate.formats.source import source_mesh
@@ -35,7 +37,7 @@ from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.cut_certificate import cut_certificate
-from fabricate.surface.tile_choice import TileWish, chosen_tiling
+from fabricate.surface.tile_choice import TileWish, chosen_tiling, tile_scale
 from fabricate.surface.tiling import Tiling
 from fabricate.versions import installed_version
 
@@ -66,12 +68,13 @@ def run(
     prepare = config.prepare
     limits = ReadLimits(max_bytes=prepare.max_file_mb << 20, max_faces=prepare.max_faces)
     mesh = source_mesh(config.source, limits=limits)
+    field = _field(config, limits)
     watch.begin("prepare")
     bodies = _bodies(mesh, config, store)
     if prepare.components != "each":
-        return (_sculpture(bodies[0], config, name=name, out=out, watch=watch, store=store),)
+        return (_sculpture(bodies[0], config, field, name=name, out=out, watch=watch, store=store),)
     return tuple(
-        _sculpture(body, config, name=f"{name}-{number}", out=out, watch=watch.copy(), store=store)
+        _sculpture(body, config, field, name=f"{name}-{number}", out=out, watch=watch.copy(), store=store)
         for number, body in enumerate(bodies, start=1)
     )
 
@@ -86,15 +89,32 @@ def _bodies(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, 
         raise
 
 
-def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _Stopwatch, store: Store) -> Report:
+def _field(config: Config, limits: ReadLimits) -> FieldWish | None:
+    if config.field is None:
+        return None
+    return FieldWish(config.field, field_source(config.field, config.source, limits=limits))
+
+
+def _sculpture(
+    body: Prepared,
+    config: Config,
+    field: FieldWish | None,
+    *,
+    name: str,
+    out: Path,
+    watch: _Stopwatch,
+    store: Store,
+) -> Report:
     """Make the parts of one body."""
     solid, process = config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
     wish, limit = _wish(config, body)
-    curve = _curve_wish(config, neck=wish.neck)
-    tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=curve), progress=watch.tell, store=store)
+    curve = _curve_wish(config, field, neck=wish.neck)
+    own = curve.scaled(tile_scale(body.mesh, wish))
+    tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=own), progress=watch.tell, store=store)
     watch.begin("duotone")
-    duotone = designed(tiling.quads, curve).duotone
+    design = designed(tiling.quads, curve.scaled(tile_scale(body.mesh, wish, tiling)))
+    duotone = design.duotone
     watch.begin("cut")
     surface = _surface(duotone, tiling, config)
     certificate = cut_certificate(surface)
@@ -119,7 +139,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
             config_sha256=config_sha256(config),
             versions=_versions(),
             mesh=mesh_facts(body, replace(tiling, notes=limit + tiling.notes), surface),
-            pattern=pattern_facts(duotone, certificate, surface),
+            pattern=pattern_facts(design, certificate, surface),
             parts=judged.parts,
             fit=judged.fit,
             checks=judged.checks,
@@ -184,9 +204,17 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
     return replace(wish, tile_size=finest.tile_size), (finest.limit,)
 
 
-def _curve_wish(config: Config, *, neck: float) -> CurveWish:
+def _curve_wish(config: Config, field: FieldWish | None, *, neck: float) -> CurveWish:
     pattern = config.pattern
-    return CurveWish(tree=pattern.tree, seed=pattern.seed, root=pattern.root, rings=pattern.positions, neck=neck)
+    return CurveWish(
+        tree=pattern.tree,
+        seed=pattern.seed,
+        root=pattern.root,
+        rings=pattern.positions,
+        neck=neck,
+        field=field,
+        locks=pattern.locks or (),
+    )
 
 
 def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:

@@ -111,6 +111,11 @@ class PatternFacts:
         Widths of the joined tiles' necks, before clearance is taken off.
     band_mm : mapping of str to Spread
         Widths of each band, likewise; none in a duotone.
+    alignment : float or None
+        Mean |cos| between the joined diagonals of both colours and the field, between 0 and 1; None unless there is
+        a field of directions.
+    locked : mapping of str to int, or None
+        Tiles that locks hold in either colour; None without locks.
     """
 
     tiles: int
@@ -123,6 +128,8 @@ class PatternFacts:
     handles: Mapping[str, int]
     neck_mm: Spread
     band_mm: Mapping[str, Spread]
+    alignment: float | None = None
+    locked: Mapping[str, int] | None = None
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import numpy as np
 from fabricate.arrays import Floats
 from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
 from fabricate.checks.facts import Distance, MeshFacts, PatternFacts, Spread, Xyz
+from fabricate.design.designed import Design
 from fabricate.duotone.certificate import Certificate, RegionFacts
-from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.region_names import region_names
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
@@ -46,8 +46,9 @@ def _distance(whole: TriangleMesh, surface: CutSurface) -> Distance:
     return Distance(found.mean, found.p999, found.max, (x, y, z))
 
 
-def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurface) -> PatternFacts:
+def pattern_facts(design: Design, certificate: Certificate, surface: CutSurface) -> PatternFacts:
     """Return what was counted and measured of the pattern on the cut surface."""
+    duotone, locks = design.duotone, design.locks
     corners = surface.points[surface.triangles]
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     shares = np.bincount(surface.regions, area) / area.sum()
@@ -66,6 +67,8 @@ def pattern_facts(duotone: Duotone, certificate: Certificate, surface: CutSurfac
         handles=MappingProxyType({name: region.handles for name, region in _named(certificate)}),
         neck_mm=_spread(tile_necks(surface)[0]),
         band_mm=MappingProxyType(dict(zip(names[1:-1], bands, strict=True))),
+        alignment=design.alignment,
+        locked=None if locks is None else _locked(locks),
     )
 
 
@@ -75,6 +78,10 @@ def _named(certificate: Certificate) -> Iterable[tuple[str, RegionFacts]]:
 
 def _spread(widths: Floats) -> Spread:
     return Spread(float(widths.min()), float(np.median(widths)))
+
+
+def _locked(locks: TileLocks) -> Mapping[str, int]:
+    return MappingProxyType({"yellow": int(locks.yellow.sum()), "blue": int(locks.blue.sum())})
 
 
 def expectations(

@@ -1,7 +1,17 @@
 """Everything a run can be asked: each key with default, bounds and one line of meaning; and reading it."""
 
 from fabricate.config.config import Config
+from fabricate.config.field_config import (
+    AttributeConfig,
+    CurvatureConfig,
+    DirectionConfig,
+    DistanceConfig,
+    FieldConfig,
+    HeightConfig,
+    ImageConfig,
+)
 from fabricate.config.loading import load_config
+from fabricate.config.lock_config import LockConfig, SideConfig
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
@@ -18,14 +28,23 @@ from fabricate.config.source_config import (
 )
 
 __all__ = [
+    "AttributeConfig",
     "Config",
     "CubeConfig",
+    "CurvatureConfig",
+    "DirectionConfig",
+    "DistanceConfig",
+    "FieldConfig",
     "FileConfig",
     "FrameConfig",
+    "HeightConfig",
+    "ImageConfig",
     "KnotConfig",
+    "LockConfig",
     "PatternConfig",
     "PrepareConfig",
     "ProcessConfig",
+    "SideConfig",
     "SolidConfig",
     "SourceConfig",
     "SphereConfig",

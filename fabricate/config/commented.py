@@ -10,7 +10,7 @@ from pydantic.fields import FieldInfo
 
 from fabricate.config.config import Config
 from fabricate.config.expectation import expectation
-from fabricate.config.keys import SECTIONS
+from fabricate.config.keys import SECTIONS, SWITCHES
 from fabricate.config.process_config import PROCESS_DEFAULTS
 from fabricate.config.source_config import SHAPES, FileConfig, TorusConfig
 from fabricate.process import PROCESSES
@@ -25,7 +25,11 @@ _HEADER = """\
 
 def commented_toml(name: str) -> str:
     """Return a config that works as it is and shows every key with its meaning, bounds and default."""
-    others = [_section(section, models[0]) for section, models in SECTIONS.items() if section != "source"]
+    others = [
+        _kinds(section) if section in SWITCHES else _section(section, models[0])
+        for section, models in SECTIONS.items()
+        if section != "source"
+    ]
     return "\n".join([_HEADER.format(name=name), _source(), *others])
 
 
@@ -44,6 +48,26 @@ def _source() -> str:
             lines += [f"# Keys of shape = {owners}:", *_entries(model, skip={"shape", "size"}, used=False)]
     lines += _entries(FileConfig, skip={"size"}, used=False)
     return "\n".join(lines) + "\n"
+
+
+def _kinds(section: str) -> str:
+    """Return a section that is of one of several kinds, or left out: all of it stands behind "#"."""
+    key, models = SWITCHES[section]
+    first = next(iter(models))
+    lines = [
+        f"#[{section}]  # {Config.model_fields[section].description}",
+        f"# Of one kind: {', '.join(models)}.",
+        f'#{key} = "{first}"',
+    ]
+    for word, model in models.items():
+        lines += [f'# Keys of {key} = "{word}", {_lower(model.__doc__)}', *_entries(model, skip={key}, used=False)]
+    return "\n".join(lines) + "\n"
+
+
+def _lower(sentence: str | None) -> str:
+    """Return a sentence as part of another one, with a colon at its end."""
+    text = sentence or ""
+    return f"{text[:1].lower()}{text[1:].rstrip('.')}:"
 
 
 def _section(name: str, model: type[BaseModel]) -> str:

@@ -12,9 +12,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from fabricate.config.expectation import expectation
-from fabricate.config.keys import SECTIONS, keys_of, nearest_key
+from fabricate.config.keys import SECTIONS, SWITCHES, keys_of, nearest_key
 from fabricate.config.section import Section
-from fabricate.config.source_config import SHAPES
 
 _RANK = {"extra_forbidden": 0, "literal_error": 2}
 """Unknown keys come first; of a key that takes a length or a word, what is wrong with the length comes before."""
@@ -43,10 +42,10 @@ def first_complaint(error: ValidationError, document: Mapping[str, Any]) -> Comp
     section, *inner = (str(step) for step in details["loc"])
     if not inner:
         return _wrong_section(section, document)
-    # Inside [source] the location also names the member of the union.
+    # Inside a section of several kinds the location also names the member of the union.
     models = {model.__name__: model for model in SECTIONS[section]}
-    model = models[inner[0]] if section == "source" else SECTIONS[section][0]
-    place = _innermost(model, inner[1:] if section == "source" and len(inner) > 1 else inner)
+    model = models[inner[0]] if section in SWITCHES else SECTIONS[section][0]
+    place = _innermost(model, inner[1:] if section in SWITCHES and len(inner) > 1 else inner)
     return Complaint(f"{section}.{place.dotted}", _wrong_key(section, place, details))
 
 
@@ -88,15 +87,19 @@ def _wrong_section(section: str, document: Mapping[str, Any]) -> Complaint:
     found = document.get(section, {})
     if not isinstance(found, dict):
         return Complaint(section, f"expected a section [{section}], found {_shown(found)}")
-    # All else that can be wrong with a whole section is that [source] asks for no known source.
-    if "shape" in found:
-        choices = ", ".join(f'"{shape}"' for shape in SHAPES)
-        return Complaint("source.shape", f"expected one of {choices}, found {_found(found['shape'], SHAPES)}")
+    # All else that can be wrong with a whole section is that it asks for no known kind.
+    switch = SWITCHES[section]
+    if switch.key in found:
+        choices = ", ".join(f'"{word}"' for word in switch.models)
+        sentence = f"expected one of {choices}, found {_found(found[switch.key], switch.models)}"
+        return Complaint(f"{section}.{switch.key}", sentence)
     known = keys_of(section)
     unknown = next((key for key in found if key not in known), None)
     if unknown is not None:
         return Complaint(f"{section}.{unknown}", f"unknown key{nearest_key(unknown, known)}")
-    return Complaint(section, 'expected shape = "..." or path = "...", found neither')
+    if section == "source":
+        return Complaint(section, 'expected shape = "..." or path = "...", found neither')
+    return Complaint(section, f'expected {switch.key} = "...", found none')
 
 
 def _wrong_key(section: str, place: _Place, details: ErrorDetails) -> str:
@@ -105,7 +108,7 @@ def _wrong_key(section: str, place: _Place, details: ErrorDetails) -> str:
         if model not in SECTIONS[section]:
             return f"unknown key{nearest_key(key, {name: name for name in model.model_fields})}"
         known = keys_of(section)
-        return _foreign_key(key, model) if key in known else f"unknown key{nearest_key(key, known)}"
+        return _foreign_key(section, key, model) if key in known else f"unknown key{nearest_key(key, known)}"
     if details["type"] == "value_error":
         return str(details["ctx"]["error"])
     field = model.model_fields[key]
@@ -115,13 +118,14 @@ def _wrong_key(section: str, place: _Place, details: ErrorDetails) -> str:
     return f"expected {expectation(field)}, found {_found(details['input'], choices)}"
 
 
-def _foreign_key(key: str, model: type[BaseModel]) -> str:
-    """Say whose key this is: it stands beside a shape or a path that has no such key."""
+def _foreign_key(section: str, key: str, model: type[BaseModel]) -> str:
+    """Say whose key this is: it stands beside a shape, a path or a kind that has no such key."""
     if key == "shape":
         return "expected either shape or path, not both: remove one of them"
-    owners = " or ".join(f'"{shape}"' for shape, owner in SHAPES.items() if key in owner.model_fields)
-    own = ", ".join(name for name in model.model_fields if name != "shape")
-    return f"belongs to shape = {owners}; the keys here are {own}"
+    switch = SWITCHES[section]
+    owners = " or ".join(f'"{word}"' for word, owner in switch.models.items() if key in owner.model_fields)
+    own = ", ".join(name for name in model.model_fields if name != switch.key)
+    return f"belongs to {switch.key} = {owners}; the keys here are {own}"
 
 
 def _found(value: object, choices: Iterable[str]) -> str:

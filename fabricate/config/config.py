@@ -1,4 +1,4 @@
-"""The whole config: its five sections, and what they owe each other."""
+"""The whole config: its sections, and what they owe each other."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from typing import Self
 from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
+from fabricate.config.field_config import AttributeConfig, FieldSection
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig, with_process_defaults
 from fabricate.config.section import wrong_value
 from fabricate.config.solid_config import SolidConfig
-from fabricate.config.source_config import Source
+from fabricate.config.source_config import FileConfig, Source
 from fabricate.units import format_length
 
 
@@ -27,6 +28,8 @@ class Config(BaseModel):
     """Repair, components, cells and sharp edges of the mesh."""
     pattern: PatternConfig = PatternConfig()
     """The curve."""
+    field: FieldSection | None = None
+    """What a tree = "field" follows."""
     solid: SolidConfig = SolidConfig()
     """The parts."""
     process: ProcessConfig = ProcessConfig()
@@ -36,6 +39,16 @@ class Config(BaseModel):
     @classmethod
     def _fill_from_process(cls, data: object) -> object:
         return with_process_defaults(data)
+
+    @model_validator(mode="after")
+    def _field_is_followed(self) -> Self:
+        if self.pattern.tree == "field" and self.field is None:
+            raise wrong_value("pattern.tree", 'expected a section [field] beside tree = "field", found none')
+        if self.field is not None and self.pattern.tree != "field":
+            raise wrong_value("field", 'nothing follows this field: say tree = "field" in [pattern], or remove [field]')
+        if isinstance(self.field, AttributeConfig) and not isinstance(self.source, FileConfig):
+            raise wrong_value("field.kind", 'kind = "attribute" reads values of a PLY file, but [source] has no path')
+        return self
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from types import NoneType
-from typing import Literal, get_args, get_origin
+from types import NoneType, UnionType
+from typing import Literal, Union, get_args, get_origin
 
 from pydantic import BeforeValidator, PlainSerializer
 from pydantic.fields import FieldInfo
@@ -23,7 +23,7 @@ def expectation(field: FieldInfo) -> str:
     named = [fact.words for fact in present.metadata if isinstance(fact, Takes)]
     is_length = not named and any(isinstance(fact, BeforeValidator) for fact in present.metadata)
     is_angle = any(isinstance(fact, PlainSerializer) and fact.func is format_angle for fact in present.metadata)
-    kinds: dict[object, str] = {str: "text", int: "a whole number", float: "a number"}
+    kinds: dict[object, str] = {str: "text", bool: "true or false", int: "a whole number", float: "a number"}
     show = format_angle if is_angle else format_length if is_length else "{:g}".format
     bounds = (
         f"{words} {show(getattr(fact, bound))}"
@@ -45,11 +45,9 @@ def _without_words(field: FieldInfo) -> tuple[tuple[str, ...], FieldInfo]:
 
     TOML has no null, so None is no value.
     """
-    if get_origin(field.annotation) is Literal:
+    if get_origin(field.annotation) not in {Union, UnionType}:
         return (), field
     members = [member for member in get_args(field.annotation) if member is not NoneType]
-    if not members:
-        return (), field
     words = tuple(word for member in members if get_origin(member) is Literal for word in get_args(member))
     (other,) = (member for member in members if get_origin(member) is not Literal)
     return words, FieldInfo.from_annotation(other)

@@ -5,25 +5,38 @@ from __future__ import annotations
 from collections.abc import Mapping
 from difflib import get_close_matches
 from types import MappingProxyType
-from typing import get_args
+from typing import NamedTuple, get_args
 
+from fabricate.config.field_config import FIELDS, FieldConfig
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
 from fabricate.config.section import Section
 from fabricate.config.solid_config import SolidConfig
-from fabricate.config.source_config import SourceConfig
+from fabricate.config.source_config import SHAPES, SourceConfig
 
 SECTIONS: Mapping[str, tuple[type[Section], ...]] = MappingProxyType(
     {
         "source": get_args(SourceConfig),
         "prepare": (PrepareConfig,),
         "pattern": (PatternConfig,),
+        "field": get_args(FieldConfig),
         "solid": (SolidConfig,),
         "process": (ProcessConfig,),
     }
 )
 """Every section and the models it may take."""
+
+
+class Switch(NamedTuple):
+    """The key whose word decides what other keys a section has, and the model that belongs to each word."""
+
+    key: str
+    models: Mapping[str, type[Section]]
+
+
+SWITCHES: Mapping[str, Switch] = MappingProxyType({"source": Switch("shape", SHAPES), "field": Switch("kind", FIELDS)})
+"""Sections that are of several kinds."""
 
 
 def keys_of(section: str) -> dict[str, str]:

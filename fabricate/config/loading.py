@@ -35,7 +35,7 @@ def load_config(path: Path, overrides: Sequence[str] = ()) -> Config:
         return Config.model_validate(document, context=ConfigFolder(path.parent))
     except ValidationError as error:
         complaint = first_complaint(error, document)
-        origin = "--set" if any(complaint.key == setting.key for setting in settings) else path
+        origin = "--set" if any(setting.holds(complaint.key) for setting in settings) else path
         raise ConfigError(f"{origin}: {complaint.key}: {complaint.sentence}") from None
 
 

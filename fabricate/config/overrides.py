@@ -24,6 +24,10 @@ class Setting(NamedTuple):
     key: str
     value: object
 
+    def holds(self, key: str) -> bool:
+        """Return whether a dotted key is this one, or within the table or list that it has for a value."""
+        return key == self.key or key.startswith((f"{self.key}.", f"{self.key}["))
+
 
 def parse_setting(override: str) -> Setting:
     """Split "section.key=value"; the value is TOML where it can be read as such and plain text otherwise.
@@ -39,7 +43,7 @@ def parse_setting(override: str) -> Setting:
     section, _, name = key.partition(".")
     known = keys_of(section)
     if name not in known:
-        raise ConfigError(f"--set: {key}: unknown key{nearest_key(name or key, known)}")
+        raise ConfigError(f"--set: {key}: unknown key{nearest_key(name or ('' if known else key), known)}")
     try:
         parsed = tomllib.loads(f"value = {text}")
     except (ValueError, RecursionError):

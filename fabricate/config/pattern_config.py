@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from fabricate.config.length import Length
-from fabricate.config.point import Point
+from fabricate.config.lock_config import LockConfig
+from fabricate.config.point import Point, as_tuple
 from fabricate.config.ring_positions import HIGHEST, LOWEST, RING_DESIGNS, RingDesign, Rings
 from fabricate.config.section import Section, wrong_value
+from fabricate.config.takes import Takes
 
 
 class PatternConfig(Section):
@@ -21,7 +23,7 @@ class PatternConfig(Section):
     """Side of the tiles that the curve runs through, or "auto": the finest that prints; instead of levels."""
     levels: Annotated[int, Field(ge=0, le=12)] | None = Field(default=None, examples=[2])
     """How often the quads are divided in four; instead of tile_size."""
-    tree: Literal["random", "breadth-first", "depth-first"] = "random"
+    tree: Literal["random", "uniform", "breadth-first", "depth-first", "field"] = "random"
     """Spanning tree that the yellow region grows along; a random one avoids necks that are too narrow to print."""
     seed: Annotated[int, Field(ge=0)] = 0
     """Another seed gives another random tree, the same seed always the same."""
@@ -31,6 +33,10 @@ class PatternConfig(Section):
     """Where the curve crosses tile edges, from the yellow end; more gives yellow a larger share."""
     rings: RingDesign | Rings | None = Field(default=None, examples=["three"])
     """Several such places, for bands between yellow and blue along the whole curve; instead of arc."""
+    locks: (
+        Annotated[tuple[LockConfig, ...], BeforeValidator(as_tuple), Takes("tables [[pattern.locks]]")] | None
+    ) = Field(default=None, examples=[[{"joined": "yellow", "tiles": [4, 5]}]])
+    """Tiles that are joined in one colour, whatever the tree."""
 
     @model_validator(mode="before")
     @classmethod

@@ -10,7 +10,7 @@ from fabricate.config.length import Length
 from fabricate.config.takes import Takes
 
 
-def _as_tuple(value: object) -> object:
+def as_tuple(value: object) -> object:
     """Return a list, as files have it, as a tuple."""
     return tuple(value) if isinstance(value, list) else value
 
@@ -22,13 +22,13 @@ def _some_way(value: tuple[float, float, float]) -> tuple[float, float, float]:
 
 
 Point: TypeAlias = Annotated[
-    tuple[Length, Length, Length], BeforeValidator(_as_tuple), Takes('three lengths such as ["0 mm", "0 mm", "50 mm"]')
+    tuple[Length, Length, Length], BeforeValidator(as_tuple), Takes('three lengths such as ["0 mm", "0 mm", "50 mm"]')
 ]
 """x, y and z of a place on the finished sculpture, mm."""
 
 Direction: TypeAlias = Annotated[
     tuple[float, float, float],
-    BeforeValidator(_as_tuple),
+    BeforeValidator(as_tuple),
     AfterValidator(_some_way),
     Takes("three numbers such as [0, 0, 1]"),
 ]

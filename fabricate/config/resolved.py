@@ -9,6 +9,7 @@ from pathlib import Path
 import tomli_w
 
 from fabricate.config.config import Config
+from fabricate.config.field_config import ImageConfig
 from fabricate.config.source_config import FileConfig
 
 
@@ -18,11 +19,18 @@ def resolved_toml(config: Config) -> str:
 
 
 def moved_config(config: Config, folder: Path) -> Config:
-    """Return the config as it reads in another folder: a mesh file is found from there."""
-    if not isinstance(config.source, FileConfig):
-        return config
-    path = os.path.relpath(config.source.file.resolve(), folder.resolve())
-    return config.model_copy(update={"source": config.source.model_copy(update={"path": path})})
+    """Return the config as it reads in another folder: a mesh file and a picture are found from there."""
+    moved: dict[str, object] = {}
+    if isinstance(config.source, FileConfig):
+        path = _from(folder, config.source.file)
+        moved["source"] = config.source.model_copy(update={"path": path})
+    if isinstance(config.field, ImageConfig):
+        moved["field"] = config.field.model_copy(update={"image": _from(folder, config.field.file)})
+    return config.model_copy(update=moved) if moved else config
+
+
+def _from(folder: Path, file: Path) -> str:
+    return os.path.relpath(file.resolve(), folder.resolve())
 
 
 def config_sha256(config: Config) -> str:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
+from fabricate.config.lock_config import LockConfig
+from fabricate.design.field import FieldWish
 from fabricate.duotone.spanning_tree import Tree
 
 
@@ -13,7 +16,7 @@ class CurveWish:
 
     Attributes
     ----------
-    tree : {"random", "breadth-first", "depth-first"}
+    tree : {"random", "uniform", "breadth-first", "depth-first", "field"}
         Spanning tree that the yellow region grows along.
     seed : int
         Draws whatever is drawn.
@@ -23,10 +26,16 @@ class CurveWish:
         Where the curve, or each of several curves side by side, crosses tile sides, from their yellow ends.
     neck : float
         Narrowest neck that will do, mm, before clearance is taken off.
+    field : FieldWish or None
+        What a tree of that name follows, and what alignment is measured with.
+    locks : tuple of LockConfig
+        Tiles that are joined in one colour.
     """
 
-    tree: Tree
+    tree: Tree | Literal["field"]
     seed: int
     rings: tuple[float, ...]
     neck: float
     root: tuple[float, float, float] | None = None
+    field: FieldWish | None = None
+    locks: tuple[LockConfig, ...] = ()

@@ -10,6 +10,7 @@ from fabricate.arrays import Indices
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.duotone.spanning_tree import Tree, grown_duotone
+from fabricate.duotone.tile_locks import TileLocks
 from fabricate.surface.neck import NeckGauge
 
 STEPS = 4
@@ -17,20 +18,28 @@ STEPS = 4
 
 
 def wide_duotone(
-    quads: QuadMesh, *, tree: Tree, seed: int, rings: Sequence[float], neck: float, root: int | None = None
+    quads: QuadMesh,
+    *,
+    tree: Tree,
+    seed: int,
+    rings: Sequence[float],
+    neck: float,
+    root: int | None = None,
+    locks: TileLocks | None = None,
 ) -> Duotone:
     """Join a spanning tree; a random one avoids tiles whose necks would be narrower for it than `neck` mm.
 
     A tile's neck runs along the diagonal that is joined, and is narrow where the other diagonal is short. Of random
-    trees one is drawn in which as few tiles as possible are joined the narrower way; the other kinds of trees have
-    a shape of their own, which they keep.
+    trees one is drawn in which as few tiles as possible are joined the narrower way. The other kinds of trees have
+    a shape of their own, or none that is likelier than others, which they keep.
 
     Raises
     ------
     PatternError
-        If the positions of the arcs are out of range or do not increase.
+        If the positions of the arcs are out of range or do not increase, or no tree keeps to the locks.
     """
-    return grown_duotone(quads, tree=tree, seed=seed, root=root, reluctance=_reluctance(quads, rings=rings, neck=neck))
+    reluctance = _reluctance(quads, rings=rings, neck=neck) if tree == "random" else None
+    return grown_duotone(quads, tree=tree, seed=seed, root=root, reluctance=reluctance, locks=locks)
 
 
 def _reluctance(quads: QuadMesh, *, rings: Sequence[float], neck: float) -> Indices:

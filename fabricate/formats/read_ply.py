@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,7 @@ from fabricate.formats.limits import DEFAULT_LIMITS, ReadLimits
 from fabricate.formats.number_rows import whole
 from fabricate.formats.ply_body import PlyBody, PlyColumn, ply_body, ply_columns
 from fabricate.formats.ply_header import PlyElement, PlyHeader, read_ply_header
+from fabricate.formats.point_values import PointValues
 from fabricate.formats.strips import strip_triangles
 from fabricate.mesh.polygon_mesh import PolygonMesh
 
@@ -31,7 +33,31 @@ def read_ply(content: bytes, *, limits: ReadLimits = DEFAULT_LIMITS) -> PolygonM
     """
     header = read_ply_header(content)
     body = ply_body(content, header, limits=limits)
-    tables = _read_tables(body, header)
+    return _mesh(body, header, _read_tables(body, header, _READ), limits)
+
+
+def read_ply_attribute(content: bytes, name: str, *, limits: ReadLimits = DEFAULT_LIMITS) -> PointValues:
+    """Read the points and faces of a PLY file, and one number for every point.
+
+    Raises
+    ------
+    ReadError
+        As `read_ply`, or if its points have no number of that name; names those that they have.
+    """
+    header = read_ply_header(content)
+    body = ply_body(content, header, limits=limits)
+    tables = _read_tables(body, header, _READ | {name})
+    mesh = _mesh(body, header, tables, limits)
+    numbers = _numbers(tables["vertex"])
+    if name not in numbers:
+        raise ReadError(
+            f"an attribute '{name}' of the points was expected, found "
+            + (", ".join(numbers) or "none beside their coordinates")
+        )
+    return PointValues(mesh, _scalars(body, tables["vertex"], name))
+
+
+def _mesh(body: PlyBody, header: PlyHeader, tables: dict[str, _Table], limits: ReadLimits) -> PolygonMesh:
     if not {"vertex", "face"} <= tables.keys() and not {"vertex", _STRIPS} <= tables.keys():
         raise ReadError(f"elements 'vertex' and 'face' were expected, found only {header.summary}")
     coordinates = [_scalars(body, tables["vertex"], axis) for axis in ("x", "y", "z")]
@@ -48,15 +74,15 @@ class _Table:
     columns: tuple[PlyColumn, ...]
 
 
-def _read_tables(body: PlyBody, header: PlyHeader) -> dict[str, _Table]:
-    """Return the first element of each name that has rows."""
+def _read_tables(body: PlyBody, header: PlyHeader, wanted: Set[str]) -> dict[str, _Table]:
+    """Return the first element of each name that has rows, with the columns of wanted properties."""
     tables: dict[str, _Table] = {}
     at = body.begin
     for element in header.elements:
         if not element.properties:
             continue
         bounds = body.bounds(element, at)
-        columns, ends = ply_columns(body, element, bounds[:-1], _READ)
+        columns, ends = ply_columns(body, element, bounds[:-1], wanted)
         wrong = np.flatnonzero(ends != bounds[1:])
         if len(wrong):
             place, row = int(bounds[wrong[0]]), wrong[0]
@@ -89,6 +115,12 @@ def _scalars(body: PlyBody, table: _Table, name: str) -> Floats:
         if column.declared.name == name and column.declared.length_kind is None:
             return body.read(column.firsts, column.declared.kind)
     raise ReadError(f"a property '{name}' of element '{table.element.name}' was expected, {_found(table)}")
+
+
+def _numbers(table: _Table) -> list[str]:
+    """Return the names of properties that are one number, but for the coordinates."""
+    declared = table.element.properties
+    return [each.name for each in declared if each.length_kind is None and each.name not in {"x", "y", "z"}]
 
 
 def _lists(body: PlyBody, table: _Table) -> tuple[Indices, Indices]:

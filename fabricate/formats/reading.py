@@ -11,12 +11,13 @@ import numpy as np
 
 from fabricate.errors import ReadError
 from fabricate.formats.limits import DEFAULT_LIMITS, ReadLimits
+from fabricate.formats.point_values import PointValues
 from fabricate.formats.read_3mf import read_3mf
 from fabricate.formats.read_glb import read_glb
 from fabricate.formats.read_glb_document import GLB_MAGIC
 from fabricate.formats.read_obj import read_obj
 from fabricate.formats.read_off import OFF_HEADER, read_off
-from fabricate.formats.read_ply import read_ply
+from fabricate.formats.read_ply import read_ply, read_ply_attribute
 from fabricate.formats.read_stl import is_binary_stl, read_stl
 from fabricate.mesh.closed import LARGEST_COORDINATE
 from fabricate.mesh.polygon_mesh import PolygonMesh
@@ -72,6 +73,29 @@ def read_mesh(path: Path, *, limits: ReadLimits = DEFAULT_LIMITS) -> PolygonMesh
         return _usable(_reader(content, path.suffix)(content, limits=limits))
     except ReadError as error:
         raise ReadError(f"{path}: {error}") from None
+
+
+def read_attribute(path: Path, name: str, *, limits: ReadLimits = DEFAULT_LIMITS) -> PointValues:
+    """Read a PLY file, polygons kept, and the number of that name which it has for every point.
+
+    Raises
+    ------
+    ReadError
+        If the file is missing, no PLY file, too large or damaged, or its points have no such number, or one that is
+        not finite. The message begins with the path.
+    """
+    try:
+        content = _as_utf8(_content(path, limits))
+        if _reader(content, path.suffix) is not read_ply:
+            raise ReadError(f"the attribute '{name}' was expected in it, but only PLY files have attributes")
+        found = read_ply_attribute(content, name, limits=limits)
+        _check_faces(found.mesh)
+        wrong = int(np.count_nonzero(~np.isfinite(found.values)))
+        if wrong:
+            raise ReadError(f"the attribute '{name}' was expected to be a number, but is none at {wrong} points")
+    except ReadError as error:
+        raise ReadError(f"{path}: {error}") from None
+    return found
 
 
 def _content(path: Path, limits: ReadLimits) -> bytes:

@@ -20,11 +20,16 @@ MAX_TILES = 4_000_000
 
 def sized(mesh: PolygonMesh, *, size: float) -> PolygonMesh:
     """Return the mesh scaled so that the longest side of its limit surface's bounding box is `size` mm."""
+    return mesh.scaled(smooth_scale(mesh, size=size))
+
+
+def smooth_scale(mesh: PolygonMesh, *, size: float) -> float:
+    """Return the factor that gives the limit surface of a mesh a longest side of `size` mm."""
     quads = subdivided(mesh, levels=1)
     while len(quads.tiles) < ENOUGH_TILES:
         quads = catmull_clark(quads).mesh
     limit = limit_vertices(quads)
-    return mesh.scaled(size / float(np.ptp(limit, axis=0).max()))
+    return size / float(np.ptp(limit, axis=0).max())
 
 
 def tile_sides(quads: QuadMesh) -> Floats:

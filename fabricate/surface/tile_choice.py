@@ -14,13 +14,14 @@ from fabricate.prepare.remesh import Cells
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.surface.neck import coarse_necks
-from fabricate.surface.sizing import typical_side
+from fabricate.surface.sizing import smooth_scale, typical_side
 from fabricate.surface.tiling import (
     Tiling,
     input_surface,
     new_tiling,
     own_tiling,
     own_tilings,
+    input_scale,
     smooth_surface,
 )
 from fabricate.surface.widening import widened
@@ -193,9 +194,21 @@ def _slid(
     return Tiling(slid[shares.index(least)], surface, (note,)), least
 
 
+def tile_scale(mesh: PolygonMesh, wish: TileWish, tiling: Tiling | None = None) -> float:
+    """Return how many mm a unit of a body's mesh is in its tiling, or in one of its own cells."""
+    if tiling is None or tiling.surface is None or _is_cage(mesh, wish):
+        return smooth_scale(mesh, size=wish.size)
+    return input_scale(mesh, size=wish.size)
+
+
+def _is_cage(mesh: PolygonMesh, wish: TileWish) -> bool:
+    """Return whether a mesh stands for its smooth surface, and not for itself."""
+    return wish.cage or (wish.cells == "auto" and not mostly_triangles(mesh))
+
+
 def _surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:
     """Return the surface that new cells stand for, mm."""
-    if wish.cage or (wish.cells == "auto" and not mostly_triangles(mesh)):
+    if _is_cage(mesh, wish):
         return smooth_surface(mesh, size=wish.size, round_limit=wish.round_limit)
     return input_surface(mesh, size=wish.size)
 

@@ -116,7 +116,12 @@ def new_tiling(
 
 def input_surface(mesh: PolygonMesh, *, size: float) -> TriangleMesh:
     """Return the polygons of a mesh as triangles, scaled to a longest side of `size` mm."""
-    return fanned(mesh.scaled(size / float(np.ptp(mesh.points, axis=0).max())))
+    return fanned(mesh.scaled(input_scale(mesh, size=size)))
+
+
+def input_scale(mesh: PolygonMesh, *, size: float) -> float:
+    """Return the factor that gives a mesh a longest side of `size` mm."""
+    return size / float(np.ptp(mesh.points, axis=0).max())
 
 
 def smooth_surface(mesh: PolygonMesh, *, size: float, round_limit: bool) -> TriangleMesh:
