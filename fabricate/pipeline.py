@@ -110,10 +110,10 @@ def _sculpture(
     watch.begin("quads")
     wish, limit = _wish(config, body)
     curve = _curve_wish(config, field, neck=wish.neck)
-    own = curve.scaled(tile_scale(body.mesh, wish))
+    own = _in_place(curve, body, wish)
     tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=own), progress=watch.tell, store=store)
     watch.begin("duotone")
-    design = designed(tiling.quads, curve.scaled(tile_scale(body.mesh, wish, tiling)))
+    design = designed(tiling.quads, _in_place(curve, body, wish, tiling))
     duotone = design.duotone
     watch.begin("cut")
     surface = _surface(duotone, tiling, config)
@@ -215,6 +215,13 @@ def _curve_wish(config: Config, field: FieldWish | None, *, neck: float) -> Curv
         field=field,
         locks=pattern.locks or (),
     )
+
+
+def _in_place(curve: CurveWish, body: Prepared, wish: TileWish, tiling: Tiling | None = None) -> CurveWish:
+    """Return the wish with values of a body's mesh, if it has any, where its tiling is, or one of its own cells."""
+    if curve.field is None or not curve.field.of_mesh:
+        return curve
+    return replace(curve, field=curve.field.scaled(tile_scale(body.mesh, wish, tiling)))
 
 
 def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:

@@ -11,6 +11,7 @@ from fabricate.duotone.curve import count_curves
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.duotone.spanning_tree import random_duotone
+from fabricate.duotone.tile_locks import TileLocks
 
 Place = tuple[float, ...]
 Gate = frozenset[Place]
@@ -75,3 +76,10 @@ def quasi_trees(draw: st.DrawFn) -> Duotone:
         flipped = Duotone(duotone.quads, joined)
         duotone = flipped if count_curves(flipped) == 1 else duotone
     return duotone
+
+
+def locks_of_some_tree(quads: QuadMesh, seed: int) -> TileLocks:
+    """Lock about a third of the tiles as some tree joins them, so that there is one that keeps to the locks."""
+    joined = random_duotone(quads, seed=seed).joined
+    held = np.random.default_rng(seed).random(len(joined)) < 0.35
+    return TileLocks(joined & held, ~joined & held)

@@ -42,9 +42,7 @@ class LockConfig(Section):
     """Instead of tiles: those whose middle is within a distance of this point."""
     within: Annotated[Length, Field(gt=0)] | None = Field(default=None, examples=["8 mm"])
     """That distance."""
-    side: SideConfig | None = Field(
-        default=None, examples=[{"point": ["0 mm", "0 mm", "0 mm"], "normal": [0, 0, 1]}]
-    )
+    side: SideConfig | None = Field(default=None, examples=[{"point": ["0 mm", "0 mm", "0 mm"], "normal": [0, 0, 1]}])
     """Instead of tiles: those whose middle is on one side of a plane."""
 
     @model_validator(mode="after")

@@ -33,9 +33,9 @@ class PatternConfig(Section):
     """Where the curve crosses tile edges, from the yellow end; more gives yellow a larger share."""
     rings: RingDesign | Rings | None = Field(default=None, examples=["three"])
     """Several such places, for bands between yellow and blue along the whole curve; instead of arc."""
-    locks: (
-        Annotated[tuple[LockConfig, ...], BeforeValidator(as_tuple), Takes("tables [[pattern.locks]]")] | None
-    ) = Field(default=None, examples=[[{"joined": "yellow", "tiles": [4, 5]}]])
+    locks: Annotated[tuple[LockConfig, ...], BeforeValidator(as_tuple), Takes("tables [[pattern.locks]]")] | None = (
+        Field(default=None, examples=[[{"joined": "yellow", "tiles": [4, 5]}]])
+    )
     """Tiles that are joined in one colour, whatever the tree."""
 
     @model_validator(mode="before")

@@ -70,9 +70,7 @@ def _tree(quads: QuadMesh, wish: CurveWish, locks: TileLocks | None) -> Duotone:
         weights = field_weights(quads, wish.field, seed=wish.seed)
         return weighted_duotone(quads, weights, seed=wish.seed, locks=locks)
     root = None if wish.root is None else _nearest_yellow(quads, wish.root)
-    return wide_duotone(
-        quads, tree=wish.tree, seed=wish.seed, root=root, rings=wish.rings, neck=wish.neck, locks=locks
-    )
+    return wide_duotone(quads, tree=wish.tree, seed=wish.seed, root=root, rings=wish.rings, neck=wish.neck, locks=locks)
 
 
 def _nearest_yellow(quads: QuadMesh, place: tuple[float, float, float]) -> int:

@@ -45,8 +45,13 @@ class FieldWish:
     config: FieldConfig
     source: FieldSource = None
 
+    @property
+    def of_mesh(self) -> bool:
+        """Whether values of a mesh were read."""
+        return isinstance(self.source, PointValues)
+
     def scaled(self, factor: float) -> FieldWish:
-        """Return the field with the mesh that it was read from, if any, scaled as the body is."""
+        """Return the field with the mesh whose values it has, if any, scaled as the body is."""
         return FieldWish(self.config, self.source.scaled(factor)) if isinstance(self.source, PointValues) else self
 
 
@@ -79,14 +84,14 @@ def _values(quads: QuadMesh, wish: FieldWish) -> Floats:
     """Return the value of a field in the middle of each tile, (t,) float."""
     match wish.config, wish.source:
         case HeightConfig(axis=axis), _:
-            return _middles(quads) @ (np.asarray(axis) / np.linalg.norm(axis))
+            return np.asarray(_middles(quads) @ (np.asarray(axis) / np.linalg.norm(axis)))
         case DistanceConfig() as distance, _:
             return _distances(TilePlaces.of(quads), distance)
         case CurvatureConfig(), _:
-            return np.abs(tile_curvatures(quads).values[:, 0])
+            return np.asarray(np.abs(tile_curvatures(quads).values[:, 0]))
         case DirectionConfig() as direction, _:
             yellow, blue = alignment_costs(quads, tile_directions(quads, direction)).T
-            return blue - yellow if direction.corridors == "along" else yellow - blue
+            return np.asarray(blue - yellow if direction.corridors == "along" else yellow - blue)
         case ImageConfig(axis=axis), np.ndarray() as luminance:
             return projected(luminance, _middles(quads), axis=np.asarray(axis))
         case AttributeConfig(), PointValues() as known:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,11 +30,11 @@ def tile_locks(quads: QuadMesh, locks: Sequence[LockConfig], *, seed: int) -> Ti
     Raises
     ------
     PatternError
-        If a lock holds no tile, or no tree keeps to the locks that hold all of theirs. The message gives the numbers of
-        the locks, counted from 1, and where they contradict each other.
+        If a lock holds no tile, or no tree keeps to the locks that hold all of theirs. The message names
+        the locks by their keys and says where they contradict each other.
     """
     middles = TilePlaces.of(quads).middle
-    held = [_held(lock, number, middles) for number, lock in enumerate(locks, start=1)]
+    held = [_held(lock, number, middles) for number, lock in enumerate(locks)]
     firm = _firm(quads, _Owners.of(locks, held, middles))
     loose = np.zeros(len(middles))
     for lock, tiles in reversed(list(zip(locks, held, strict=True))):
@@ -52,7 +52,7 @@ def _held(lock: LockConfig, number: int, middles: Floats) -> Indices:
         tiles = np.unique(lock.tiles)
         if tiles[-1] >= len(middles):
             last = len(middles) - 1
-            raise PatternError(f"lock {number} holds tile {tiles[-1]}, but tiles are numbered from 0 to {last}")
+            raise PatternError(f"{_key(number)} holds tile {tiles[-1]}, but tiles are numbered from 0 to {last}")
         return tiles
     if lock.side is not None:
         beyond = (middles - np.asarray(lock.side.point)) @ np.asarray(lock.side.normal)
@@ -63,13 +63,13 @@ def _held(lock: LockConfig, number: int, middles: Floats) -> Indices:
 
 def _some(tiles: Indices, number: int, otherwise: str) -> Indices:
     if not len(tiles):
-        raise PatternError(f"lock {number} holds no tile: {otherwise}")
+        raise PatternError(f"{_key(number)} holds no tile: {otherwise}")
     return tiles
 
 
 @dataclass(frozen=True, eq=False)
 class _Owners:
-    """By which lock each tile is held in yellow and in blue, (t,) int, counted from 1; 0 where by none."""
+    """By which lock each tile is held in yellow and in blue, (t,) int; -1 where by none."""
 
     yellow: Indices
     blue: Indices
@@ -78,23 +78,23 @@ class _Owners:
     @classmethod
     def of(cls, locks: Sequence[LockConfig], held: Sequence[Indices], middles: Floats) -> _Owners:
         """Return the first lock of each colour that holds each tile, of those that hold all of theirs."""
-        owner = {"yellow": np.zeros(len(middles), dtype=np.int64), "blue": np.zeros(len(middles), dtype=np.int64)}
-        for number in range(len(locks), 0, -1):
-            if locks[number - 1].hold == "all":
-                owner[locks[number - 1].joined][held[number - 1]] = number
+        owner = {colour: np.full(len(middles), -1) for colour in ("yellow", "blue")}
+        for number in reversed(range(len(locks))):
+            if locks[number].hold == "all":
+                owner[locks[number].joined][held[number]] = number
         return cls(owner["yellow"], owner["blue"], middles)
 
     def contradict(self, owners: Indices, tiles: Indices, what: str) -> PatternError:
         """Return the error that names the owners of some tiles, and the tiles."""
-        numbers, (x, y, z) = np.unique(owners).tolist(), self.middles[tiles[0]]
-        who = f"lock {numbers[0]} contradicts itself" if len(numbers) == 1 else f"{_named('lock', numbers)} contradict"
-        who += "" if len(numbers) == 1 else " each other"
-        return PatternError(f"{who}: {_named('tile', tiles.tolist())} at ({x:.1f}, {y:.1f}, {z:.1f}) mm {what}")
+        keys, place = [_key(number) for number in np.unique(owners)], self.middles[tiles[0]]
+        who = f"{keys[0]} contradicts itself" if len(keys) == 1 else f"{_listed(keys)} contradict each other"
+        named = ("tile " if len(tiles) == 1 else "tiles ") + _listed([str(tile) for tile in tiles])
+        return PatternError(f"{who}: {named} at ({', '.join(f'{value:.4g}' for value in place)}) mm {what}")
 
 
 def _firm(quads: QuadMesh, owners: _Owners) -> TileLocks:
     """Return the tiles of locks that hold all of theirs, if a tree keeps to them."""
-    yellow, blue = owners.yellow > 0, owners.blue > 0
+    yellow, blue = owners.yellow >= 0, owners.blue >= 0
     both = np.flatnonzero(yellow & blue)
     if len(both):
         pair = np.concatenate([owners.yellow[both[:1]], owners.blue[both[:1]]])
@@ -109,11 +109,12 @@ def _firm(quads: QuadMesh, owners: _Owners) -> TileLocks:
     return TileLocks(yellow, blue)
 
 
-def _named(noun: str, numbers: Iterable[int]) -> str:
-    """Return numbers in words, such as "tiles 3, 4 and 9"."""
-    words = [str(number) for number in numbers]
-    if len(words) == 1:
-        return f"{noun} {words[0]}"
+def _key(number: int) -> str:
+    return f"pattern.locks[{number}]"
+
+
+def _listed(words: Sequence[str]) -> str:
+    """Return words as "a, b and c", of which no more than `NAMED` are there."""
     if len(words) > NAMED:
         words = [*words[: NAMED - 1], f"{len(words) - NAMED + 1} more"]
-    return f"{noun}s {', '.join(words[:-1])} and {words[-1]}"
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)

@@ -9,7 +9,7 @@ import numpy as np
 from fabricate.arrays import Indices
 
 DRAWS = 1 << 18
-"""Random numbers that are drawn at once."""
+"""Most random numbers that are drawn at once."""
 
 
 def uniform_tree(ends: Indices, *, nodes: int, seed: int) -> Indices:
@@ -33,7 +33,7 @@ def uniform_tree(ends: Indices, *, nodes: int, seed: int) -> Indices:
     by_tail = np.argsort(tails, kind="stable")
     first = np.searchsorted(tails[by_tail], np.arange(nodes + 1))
     heads = np.roll(ends, 1, axis=1).T.ravel()[by_tail]
-    leaving = _branches(heads.tolist(), first[:-1].tolist(), np.diff(first).tolist(), _draws(seed))
+    leaving = _branches(heads.tolist(), first[:-1].tolist(), np.diff(first).tolist(), _draws(seed, at_once=min(4 * nodes, DRAWS)))
     chosen: Indices = by_tail[leaving[1:]] % len(ends)
     return chosen
 
@@ -53,8 +53,8 @@ def _branches(heads: list[int], first: list[int], valence: list[int], draws: Ite
     return np.array(leaving, dtype=np.int64)
 
 
-def _draws(seed: int) -> Iterator[float]:
+def _draws(seed: int, *, at_once: int) -> Iterator[float]:
     """Yield random numbers from 0 up to 1 without end."""
     generator = np.random.default_rng(seed)
     while True:
-        yield from generator.random(DRAWS).tolist()
+        yield from generator.random(at_once).tolist()

@@ -63,7 +63,7 @@ def _shape_operator(
     In the frame of the unit vectors `first`, along the first diagonal, and `second`; each (t, 3). Tiles without area
     count as flat.
     """
-    length, lean, height = (_dot(*pair) for pair in zip((*diagonals, diagonals[1]), (first, first, second), strict=True))
+    length, lean, height = _dot(diagonals[0], first), _dot(diagonals[1], first), _dot(diagonals[1], second)
     flat = (length <= 0.0) | (height <= 0.0)
     length, height = np.where(flat, np.inf, length), np.where(flat, np.inf, height)
     a, across = _dot(turned[0], first) / length, _dot(turned[0], second) / length

@@ -17,11 +17,11 @@ from fabricate.surface.neck import coarse_necks
 from fabricate.surface.sizing import smooth_scale, typical_side
 from fabricate.surface.tiling import (
     Tiling,
+    input_scale,
     input_surface,
     new_tiling,
     own_tiling,
     own_tilings,
-    input_scale,
     smooth_surface,
 )
 from fabricate.surface.widening import widened

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from polyhedra import beads, named, quad_meshes, seeds, surfaces
-from truchet import diagonals, joined_graph
+from truchet import diagonals, joined_graph, locks_of_some_tree
 
 from fabricate.duotone.catmull_clark import subdivided
 from fabricate.duotone.duotone import Duotone
@@ -21,8 +21,10 @@ from fabricate.duotone.spanning_tree import (
     grown_duotone,
     random_duotone,
     seeded_root,
+    uniform_duotone,
     weighted_duotone,
 )
+from fabricate.duotone.tile_locks import TileLocks
 from fabricate.errors import PatternError
 from fabricate.mesh.polygon_mesh import PolygonMesh
 
@@ -31,6 +33,7 @@ NAMED = {name: subdivided(mesh, levels=1) for name, mesh in named().items()}
 PARALLEL = {count: two_coloured(beads(count)) for count in (2, 3, 4, 9)}
 MAKERS: dict[str, Callable[[QuadMesh, int], Duotone]] = {
     "random": lambda quads, seed: random_duotone(quads, seed=seed),
+    "uniform": lambda quads, seed: uniform_duotone(quads, seed=seed),
     "weighted": lambda quads, seed: weighted_duotone(quads, some_weights(quads, seed)),
     "breadth first": lambda quads, seed: breadth_first_duotone(quads, root=seeded_root(quads, seed=seed)),
     "depth first": lambda quads, seed: depth_first_duotone(quads, root=seeded_root(quads, seed=seed)),
@@ -143,6 +146,42 @@ def test_ties_go_to_the_lower_tile(quads: QuadMesh) -> None:
     equal = weighted_duotone(quads, np.zeros(len(quads.tiles))).joined
     rising = weighted_duotone(quads, np.arange(len(quads.tiles), dtype=float)).joined
     assert (equal == rising).all()
+
+
+@given(quads=MESHES, seed=seeds)
+def test_ties_may_be_drawn(quads: QuadMesh, seed: int) -> None:
+    weights = some_weights(quads, seed)
+    least = weights[weighted_duotone(quads, weights).joined].sum()
+    drawn = [weighted_duotone(quads, weights, seed=number).joined for number in range(5)]
+    assert all(weights[joined].sum() == least for joined in drawn)
+    alike = weighted_duotone(quads, np.zeros(len(quads.tiles)), seed=seed).joined
+    assert (alike == random_duotone(quads, seed=seed).joined).all()
+
+
+@pytest.mark.parametrize("tree", get_args(Tree))
+@given(quads=MESHES, seed=seeds)
+def test_trees_keep_to_locks(tree: Tree, quads: QuadMesh, seed: int) -> None:
+    locks = locks_of_some_tree(quads, seed)
+    grown = grown_duotone(quads, tree=tree, seed=seed, locks=locks)
+    assert grown.joined[locks.yellow].all()
+    assert not grown.joined[locks.blue].any()
+    assert_spanning_tree(grown)
+
+
+@given(quads=MESHES, seed=seeds)
+def test_weight_is_the_least_that_locks_allow(quads: QuadMesh, seed: int) -> None:
+    locks, weights = locks_of_some_tree(quads, seed), some_weights(quads, seed)
+    pressed = np.where(locks.yellow, -100.0, np.where(locks.blue, 100.0, weights))
+    grown = weighted_duotone(quads, weights, locks=locks)
+    assert_spanning_tree(grown)
+    assert pressed[grown.joined].sum() == pressed[weighted_duotone(quads, pressed).joined].sum()
+
+
+@pytest.mark.parametrize("tree", get_args(Tree))
+@given(quads=MESHES, seed=seeds)
+def test_locks_that_hold_nothing_change_nothing(tree: Tree, quads: QuadMesh, seed: int) -> None:
+    plain = grown_duotone(quads, tree=tree, seed=seed).joined
+    assert (grown_duotone(quads, tree=tree, seed=seed, locks=TileLocks.none(quads)).joined == plain).all()
 
 
 @given(quads=MESHES, seed=seeds)
