@@ -153,3 +153,12 @@ def coordinates(points: list[str], kind: str) -> np.ndarray:
 TEXTS: list[Writer] = [obj, off, ply, stl]
 INDEXED: list[Writer] = [obj, off, ply, binary_ply]
 ALL: list[Writer] = [*TEXTS, binary_off, binary_ply, big_endian_ply, strip_ply, binary_stl, three_mf, glb]
+
+
+def ply_with_values(name: str, values: list[float]) -> bytes:
+    """Return a text PLY of the tetrahedron whose points have a number each."""
+    header = ply_header("ascii", len(POINTS), len(FACES)).replace(
+        "element face", f"property float {name}\nelement face"
+    )
+    points = [f"{point} {value}" for point, value in zip(POINTS, values, strict=True)]
+    return (header + rows(points, FACES)).encode()

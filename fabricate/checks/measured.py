@@ -13,6 +13,7 @@ from fabricate.checks.facts import Distance, MeshFacts, PatternFacts, Spread, Xy
 from fabricate.design.designed import Design
 from fabricate.duotone.certificate import Certificate, RegionFacts
 from fabricate.duotone.region_names import region_names
+from fabricate.duotone.tile_locks import TileLocks
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.tile_quality import tile_quality

@@ -74,6 +74,8 @@ def field_weights(quads: QuadMesh, wish: FieldWish, *, seed: int) -> Floats:
     if not isinstance(config, DirectionConfig) and config.reverse:
         values = -values
     span = float(np.ptp(values))
+    if span * LEVELS <= float(np.abs(values).max()):
+        values, span = np.zeros_like(values), 0.0
     if config.jitter > 0.0:
         values = values + config.jitter * (span or 1.0) * np.random.default_rng(seed).random(len(values))
     weights: Floats = np.rint((values - values.min()) * (LEVELS / (span or 1.0)))

@@ -33,7 +33,8 @@ def uniform_tree(ends: Indices, *, nodes: int, seed: int) -> Indices:
     by_tail = np.argsort(tails, kind="stable")
     first = np.searchsorted(tails[by_tail], np.arange(nodes + 1))
     heads = np.roll(ends, 1, axis=1).T.ravel()[by_tail]
-    leaving = _branches(heads.tolist(), first[:-1].tolist(), np.diff(first).tolist(), _draws(seed, at_once=min(4 * nodes, DRAWS)))
+    draws = _draws(seed, at_once=min(4 * nodes, DRAWS))
+    leaving = _branches(heads.tolist(), first[:-1].tolist(), np.diff(first).tolist(), draws)
     chosen: Indices = by_tail[leaving[1:]] % len(ends)
     return chosen
 

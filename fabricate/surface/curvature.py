@@ -11,7 +11,7 @@ from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.surface.tile_places import TilePlaces
 from fabricate.triangles.normals import unit
 
-ROUND = 0.05
+ROUND = 0.15
 """Where the curvatures differ by a smaller share than this of the larger one, no direction is the most curved."""
 
 

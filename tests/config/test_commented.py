@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from fabricate.config import Config, TorusConfig
 from fabricate.config.commented import commented_toml
+from fabricate.config.field_config import FIELDS
 from fabricate.config.keys import SECTIONS
 from fabricate.config.section import ConfigFolder
 from fabricate.config.source_config import SHAPES
@@ -68,6 +69,19 @@ def test_the_keys_of_each_shape_behind_the_sign_are_its_defaults(shape: str) -> 
     assert Config.model_validate({"source": {"shape": shape, **settings}}) == Config.model_validate(
         {"source": {"shape": shape}}
     )
+
+
+@pytest.mark.parametrize("kind", FIELDS)
+def test_the_keys_of_each_field_behind_the_sign_are_its_defaults(kind: str) -> None:
+    block = re.search(rf'^# Keys of kind = "{kind}".*:\n((#.* = .*\n|# .*\n)*?)(?=# Keys of|\n)',
+                      commented_toml("first"), flags=re.MULTILINE)  # fmt: skip
+    assert block is not None
+    settings: dict[str, Any] = tomllib.loads(re.sub(r"^#(?=\w)", "", block[1], flags=re.MULTILINE))
+    model = FIELDS[kind]
+    assert {"kind", *settings} == set(model.model_fields)
+    found = model.model_validate({"kind": kind, **settings}, context=ConfigFolder(Path()))
+    defaults = {key: value for key, value in model.model_construct().model_dump().items() if value is not None}
+    assert found.model_dump().items() >= defaults.items()
 
 
 @given(st.text(string.ascii_letters + string.digits + "_", min_size=1, max_size=20))

@@ -12,6 +12,7 @@ from fabricate.config.complaint import first_complaint
 from fabricate.config.section import ConfigFolder
 
 TORUS = '[source]\nshape = "torus"\n'
+LOCK = '[[pattern.locks]]\njoined = "yellow"\n'
 
 
 @dataclass(frozen=True)
@@ -72,6 +73,26 @@ MISTAKES = [
     Mistake(TORUS + "[pattern]\narc = nan", ("pattern.arc", "a number", "NaN")),
     Mistake(TORUS + '[pattern]\nroot = ["1 mm", "2 mm"]', ("pattern.root", "three lengths", "found")),
     Mistake(TORUS + '[pattern]\nroot = ["1 mm", "2 mm", 3]', ("pattern.root[2]", "unit", '"3 mm"')),
+    Mistake(TORUS + "[pattern]\nlocks = 3", ("pattern.locks:", "tables [[pattern.locks]]", "found 3")),
+    Mistake(TORUS + "[pattern]\nlocks = [3]", ("pattern.locks[0]:", "found 3")),
+    Mistake(TORUS + LOCK, ("pattern.locks[0]", "expected one of tiles, near with within, or side")),
+    Mistake(TORUS + LOCK + "tiles = []", ("pattern.locks[0].tiles:", "numbers of tiles", "found []")),
+    Mistake(TORUS + LOCK + "tiles = [0, -1]", ("pattern.locks[0].tiles[1]:", "numbers of tiles", "found -1")),
+    Mistake(TORUS + LOCK + "tile = [0]", ("pattern.locks[0].tile:", "did you mean tiles?")),
+    Mistake(TORUS + LOCK + "side = { normal = [0, 0, 1] }", ("pattern.locks[0].side.point:", "found nothing")),
+    Mistake(TORUS + LOCK.replace("yellow", "green"), ("pattern.locks[0].joined:", '"blue"', "green")),
+    # what the curve follows
+    Mistake(TORUS + "field = 3", ("source.field",)),
+    Mistake("field = 3\n" + TORUS, ("field:", "expected a section [field]", "found 3")),
+    Mistake(TORUS + "[field]", ("field:", 'expected kind = "..."', "found none")),
+    Mistake(TORUS + "[field]\nkinds = 3", ("field.kinds", "unknown key", "did you mean field.kind?")),
+    Mistake(TORUS + '[field]\nkind = "hight"', ("field.kind", '"direction"', 'did you mean "height"?')),
+    Mistake(TORUS + '[field]\nkind = "height"', ("field:", "nothing follows", 'tree = "field"')),
+    Mistake(TORUS + '[field]\nkind = "height"\nlines = "circles"', ("field.lines", 'kind = "direction"')),
+    Mistake(TORUS + '[field]\nkind = "height"\naxis = [0, 0, 0]', ("field.axis", "three zeros")),
+    Mistake(TORUS + '[field]\nkind = "height"\nreverse = 1', ("field.reverse", "true or false", "found 1")),
+    Mistake(TORUS + '[field]\nkind = "image"', ("field.image", "expected text", "found nothing")),
+    Mistake(TORUS + '[pattern]\ntree = "field"', ("pattern.tree", "section [field]", "found none")),
     # the parts
     Mistake(TORUS + '[solid]\nthicknes = "2 mm"', ("solid.thicknes", "did you mean solid.thickness?")),
     Mistake(TORUS + 'thickness = "2 mm"', ("source.thickness", "did you mean solid.thickness?")),

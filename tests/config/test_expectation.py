@@ -25,6 +25,9 @@ FIELDS = {
         ("PatternConfig.levels", "a whole number, at least 0, at most 12"),
         ("PatternConfig.arc", "a number, more than 0.293, less than 0.707"),
         ("PrepareConfig.crease", "an angle, at least 0 deg, at most 180 deg"),
+        ("PatternConfig.locks", "tables [[pattern.locks]]"),
+        ("HeightConfig.axis", "three numbers such as [0, 0, 1]"),
+        ("HeightConfig.reverse", "true or false"),
         ("SolidConfig.core", 'one of "hollow", "blue", "yellow"'),
     ],
 )

@@ -9,9 +9,13 @@ from hypothesis import strategies as st
 from fabricate.config import (
     Config,
     CubeConfig,
+    DirectionConfig,
     FileConfig,
     FrameConfig,
+    HeightConfig,
+    ImageConfig,
     KnotConfig,
+    LockConfig,
     PatternConfig,
     ProcessConfig,
     SolidConfig,
@@ -58,11 +62,24 @@ CONFIGS = st.builds(
 )
 
 
+FIELD = st.builds(HeightConfig, kind=st.just("height"), reverse=st.booleans(), jitter=st.floats(0, 1)) | st.builds(
+    DirectionConfig, kind=st.just("direction"), point=st.none() | st.tuples(*3 * [st.floats(-50, 50)])
+)
+LOCKS = st.lists(
+    st.builds(LockConfig, joined=st.sampled_from(["yellow", "blue"]), tiles=st.just((1, 2)))
+    | st.builds(LockConfig, joined=st.just("blue"), near=st.just((0.0, 0.0, 1.5)), within=st.floats(0.1, 9)),
+    min_size=1,
+).map(tuple)
+FOLLOWING = st.builds(
+    Config, source=SOURCE, pattern=st.builds(PatternConfig, tree=st.just("field"), locks=LOCKS), field=FIELD
+)
+
+
 def reread(text: str) -> Config:
     return Config.model_validate(tomllib.loads(text), context=ConfigFolder(Path()))
 
 
-@given(CONFIGS)
+@given(CONFIGS | FOLLOWING)
 def test_a_resolved_config_gives_itself(config: Config) -> None:
     text = resolved_toml(config)
     again = reread(text)
@@ -111,6 +128,20 @@ def test_a_config_in_another_folder_finds_the_same_mesh(tmp_path: Path) -> None:
     again = load_config(moved).source
     assert isinstance(again, FileConfig)
     assert again.file.resolve() == (tmp_path / "models" / "spot.obj").resolve()
+
+
+def test_a_config_in_another_folder_finds_the_same_picture(tmp_path: Path) -> None:
+    path = tmp_path / "configs" / "some.toml"
+    path.parent.mkdir()
+    path.write_text(
+        '[source]\nshape = "cube"\n[pattern]\ntree = "field"\n[field]\nkind = "image"\nimage = "../a/star.png"'
+    )
+    moved = tmp_path / "outputs" / "some" / "config.toml"
+    moved.parent.mkdir(parents=True)
+    moved.write_text(resolved_toml(moved_config(load_config(path), moved.parent)))
+    again = load_config(moved).field
+    assert isinstance(again, ImageConfig)
+    assert again.file.resolve() == (tmp_path / "a" / "star.png").resolve()
 
 
 def test_a_shape_is_the_same_everywhere(tmp_path: Path) -> None:

@@ -3,23 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import shortest_path
 
+from fabricate.config import DirectionConfig, HeightConfig, LockConfig, SideConfig
 from fabricate.design.curve_wish import CurveWish
 from fabricate.design.designed import designed, grown
+from fabricate.design.field import FieldWish
 from fabricate.duotone.certificate import certified
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.duotone.spanning_tree import Tree
+from fabricate.errors import PatternError
 from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.sizing import sized, tiled
 
 WISH = CurveWish(tree="random", seed=3, rings=(0.5,), neck=1.0)
+CIRCLES = FieldWish(DirectionConfig(kind="direction", lines="circles"))
+LOCKS = (
+    LockConfig(joined="yellow", tiles=(1, 2)),
+    LockConfig(joined="blue", hold="most", side=SideConfig(point=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0))),
+)
 
 
 def ball() -> QuadMesh:
@@ -34,7 +43,7 @@ def corridor_lengths(duotone: Duotone, root: int) -> np.ndarray:
     return np.asarray(shortest_path(tree, directed=False, indices=root))[duotone.quads.yellow]
 
 
-@pytest.mark.parametrize("tree", ["random", "breadth-first", "depth-first"])
+@pytest.mark.parametrize("tree", ["random", "uniform", "breadth-first", "depth-first"])
 def test_a_design_is_one_curve(tree: Tree) -> None:
     wish = replace(WISH, tree=tree)
     duotone = designed(ball(), wish).duotone
@@ -55,3 +64,42 @@ def test_another_root_gives_another_tree() -> None:
     roots = [(0.0, 0.0, 25.0), (25.0, 0.0, 0.0)]
     first, second = (grown(ball(), replace(WISH, tree="depth-first", root=root)).joined for root in roots)
     assert not np.array_equal(first, second)
+
+
+@pytest.mark.parametrize("tree", ["random", "uniform", "breadth-first", "depth-first", "field"])
+def test_every_tree_keeps_to_locks(tree: Tree | Literal["field"]) -> None:
+    wish = replace(WISH, tree=tree, field=CIRCLES if tree == "field" else None, locks=LOCKS)
+    design = designed(ball(), wish)
+    assert design.locks is not None
+    assert certified(design.duotone).holds
+    assert design.duotone.joined[design.locks.yellow].all()
+    assert not design.duotone.joined[design.locks.blue].any()
+    assert design.locks.yellow[[1, 2]].all()
+    assert certified(grown(ball(), wish)).holds
+
+
+def test_alignment_is_measured_with_a_field_of_directions() -> None:
+    design = designed(ball(), replace(WISH, tree="field", field=CIRCLES))
+    assert design.alignment is not None
+    assert design.alignment > 0.85
+    height = FieldWish(HeightConfig(kind="height"))
+    assert designed(ball(), replace(WISH, tree="field", field=height)).alignment is None
+
+
+def test_corridors_lead_down_a_field() -> None:
+    quads = ball()
+    joined = designed(quads, replace(WISH, tree="field", field=FieldWish(HeightConfig(kind="height")))).duotone.joined
+    ends = limit_vertices(quads)[quads.tiles][:, [0, 2], 2]
+    assert np.abs(np.diff(ends[joined])).mean() > 1.3 * np.abs(np.diff(ends[~joined])).mean()
+
+
+def test_ties_of_a_field_are_drawn_from_the_seed() -> None:
+    flat = FieldWish(HeightConfig(kind="height", jitter=1.0))
+    first, again, other = (designed(ball(), replace(WISH, tree="field", field=flat, seed=k)).duotone for k in (1, 1, 2))
+    assert (first.joined == again.joined).all()
+    assert (first.joined != other.joined).any()
+
+
+def test_a_field_is_missed() -> None:
+    with pytest.raises(PatternError, match="needs a field to follow, found none"):
+        designed(ball(), replace(WISH, tree="field"))

@@ -64,7 +64,7 @@ def test_roomy_tiles_give_the_tree_of_the_seed() -> None:
     assert (roomy.joined == grown_duotone(QUADS, tree="random", seed=5).joined).all()
 
 
-@pytest.mark.parametrize("tree", ["breadth-first", "depth-first"])
+@pytest.mark.parametrize("tree", ["uniform", "breadth-first", "depth-first"])
 def test_other_trees_keep_their_shape(tree: Tree) -> None:
     found = wide_duotone(QUADS, tree=tree, seed=3, rings=(0.5,), neck=NECK)
     assert (found.joined == grown_duotone(QUADS, tree=tree, seed=3).joined).all()

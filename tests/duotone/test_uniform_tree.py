@@ -79,9 +79,8 @@ def test_the_count_is_that_of_the_cube() -> None:
 
 def test_the_count_is_that_of_all_sets_of_edges_that_are_trees() -> None:
     graph = YellowGraph.of(PARALLEL)
-    sets = combinations(graph.ends.tolist(), graph.nodes - 1)
-    assert count_trees(graph.ends, graph.nodes) == sum(nx.is_tree(nx.MultiGraph(chosen)) and len(nx.MultiGraph(chosen)) == graph.nodes
-                                     for chosen in sets)  # fmt: skip
+    sets = [nx.MultiGraph(chosen) for chosen in combinations(graph.ends.tolist(), graph.nodes - 1)]
+    assert count_trees(graph.ends, graph.nodes) == sum(len(tree) == graph.nodes and nx.is_tree(tree) for tree in sets)
 
 
 def test_trees_that_keep_to_locks_are_equally_likely() -> None:

@@ -20,9 +20,7 @@ MESHES = quad_meshes()
 def multigraph(graph: YellowGraph) -> nx.MultiGraph:
     found = nx.MultiGraph()
     found.add_nodes_from(range(graph.nodes))
-    found.add_edges_from(
-        (a, b, tile) for (a, b), tile in zip(graph.ends.tolist(), graph.tiles.tolist(), strict=True)
-    )
+    found.add_edges_from((a, b, tile) for (a, b), tile in zip(graph.ends.tolist(), graph.tiles.tolist(), strict=True))
     return found
 
 
@@ -48,9 +46,7 @@ def test_locks_contract_and_delete(quads: QuadMesh, seed: int) -> None:
     for piece in nx.connected_components(pieces):
         assert len(set(graph.node_of[list(piece)].tolist())) == 1
     left = {
-        tile
-        for a, b, tile in whole.edges(keys=True)
-        if not locks.yellow[tile] and graph.node_of[a] != graph.node_of[b]
+        tile for a, b, tile in whole.edges(keys=True) if not locks.yellow[tile] and graph.node_of[a] != graph.node_of[b]
     }
     assert set(graph.tiles.tolist()) == left
     assert nx.is_connected(multigraph(graph))

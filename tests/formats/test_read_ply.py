@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from fabricate.errors import ReadError
 from fabricate.formats.limits import ReadLimits
-from fabricate.formats.read_ply import read_ply
+from fabricate.formats.read_ply import read_ply, read_ply_attribute
 from fabricate.mesh.polygon_mesh import PolygonMesh
 
 FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
@@ -230,3 +230,22 @@ def test_a_header_without_end_is_not_looked_for_in_the_whole_file(form: str) -> 
     content = written([VERTEX, FACE], form).replace(b"comment", b"comment " + b"x" * 100_000)
     with pytest.raises(ReadError, match="'end_header' within 65536 bytes, found none"):
         read_ply(content)
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_values_of_points_are_read_by_their_name(form: str) -> None:
+    kinds = ["float x", "double heat", "float y", "list uchar int some", "float z", "uchar red"]
+    rows = [[x, 10.5 * k, y, [1, 2], z, k] for k, (x, y, z) in enumerate(POINTS)]
+    content = written([("vertex", kinds, rows), FACE], form)
+    assert read_ply_attribute(content, "heat").values.tolist() == [0.0, 10.5, 21.0, 31.5, 42.0]
+    found = read_ply_attribute(content, "red")
+    assert found.values.tolist() == [0, 1, 2, 3, 4]
+    assert found.mesh.points.tolist() == read_ply(content).points.tolist()
+    for name in ("cold", "some", "x"):
+        with pytest.raises(ReadError, match=rf"'{name}' of the points was expected, found heat, red$"):
+            read_ply_attribute(content, name)
+
+
+def test_without_values_none_are_named() -> None:
+    with pytest.raises(ReadError, match="found none beside their coordinates"):
+        read_ply_attribute(written([VERTEX, FACE], "ascii"), "heat")

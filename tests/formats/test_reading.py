@@ -21,13 +21,14 @@ from mesh_bytes import (
     obj,
     off,
     ply,
+    ply_with_values,
     stl,
     three_mf,
 )
 
 from fabricate.errors import FabricateError, ReadError
 from fabricate.formats.limits import ReadLimits
-from fabricate.formats.reading import read_mesh
+from fabricate.formats.reading import read_attribute, read_mesh
 from fabricate.mesh.closed import checked_closed
 from fabricate.mesh.polygon_mesh import PolygonMesh
 
@@ -219,3 +220,19 @@ def test_bad_files_are_proved_closed_or_refused_in_one_line(path: Path) -> None:
         assert len(str(error)) < 500  # noqa: PT017
     else:
         assert isinstance(mesh, PolygonMesh)
+
+
+def test_attributes_are_read_of_ply_files_only(tmp_path: Path) -> None:
+    path = tmp_path / "some.ply"
+    path.write_bytes(ply_with_values("heat", [1, 2, 3.5, 4]))
+    assert read_attribute(path, "heat").values.tolist() == [1, 2, 3.5, 4]
+    for content, words in [
+        (obj(POINTS, FACES), "only PLY files have attributes"),
+        (ply(POINTS, FACES), "found none beside their coordinates"),
+        (ply_with_values("heat", [1, float("nan"), 3, 4]), "but is none at 1 points"),
+        (b"", "the file is empty"),
+    ]:
+        path.write_bytes(content)
+        with pytest.raises(ReadError, match=words) as caught:
+            read_attribute(path, "heat")
+        assert str(caught.value).startswith(f"{path}: ")
