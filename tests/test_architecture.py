@@ -39,7 +39,7 @@ OWNERS = {
     "pyquadriflow": ("prepare",),
     "typer": ("cli",),
     "rich": ("cli",),
-    "PIL": ("picture", "output.png"),
+    "PIL": ("formats.read_image", "picture", "output.png"),
     "viser": ("preview",),
 }
 """Libraries that stay in their corner, and where that is."""
@@ -111,6 +111,7 @@ def test_rows_import_only_rows_above(name: str) -> None:
         ("pipeline", "import rich.progress"),
         ("batch.workers", "from typer import echo"),
         ("output.stl", "from PIL import Image"),
+        ("formats.reading", "from PIL import Image"),
         ("solid.part", "import viser"),
         ("mesh.cube", "import fabricate"),
         ("formats.reading", "from fabricate.prepare.repair import repaired"),
@@ -126,6 +127,7 @@ def test_an_import_from_below_is_found(name: str, source: str) -> None:
     [
         ("cli", "import typer\nfrom rich.console import Console\nfrom fabricate.batch.workers import run"),
         ("output.png", "from PIL import Image"),
+        ("formats.read_image", "from PIL import Image"),
         ("prepare.wrap", "import pymeshlab\nfrom fabricate.mesh.closed import genus"),
         ("picture.preview", "from PIL import Image\nfrom fabricate.picture.scene import Scene"),
         ("checks.fit", "import manifold3d\nfrom fabricate.solid.part import Part"),

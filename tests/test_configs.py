@@ -63,7 +63,9 @@ def test_every_number_of_handles_is_shown(configs: Configs) -> None:
 
 def test_every_kind_of_choice_is_shown(configs: Configs) -> None:
     every = configs.values()
-    assert {config.pattern.tree for config in every} == {"random", "breadth-first", "depth-first"}
+    trees = {"random", "uniform", "breadth-first", "depth-first", "field"}
+    assert {config.pattern.tree for config in every} == trees
+    assert any(config.pattern.locks for config in every)
     spheres = [config.source for config in every if isinstance(config.source, SphereConfig)]
     assert {sphere.faces for sphere in spheres} == {"triangles", "pentagons", "hexagons", "octagons"}
     assert any(isinstance(config.source, KnotConfig) for config in every)

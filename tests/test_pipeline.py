@@ -13,15 +13,21 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mesh_bytes import ply_with_values
 
 from fabricate import pipeline
 from fabricate.checks.report import Report
 from fabricate.cli import main
 from fabricate.config import load_config
+from fabricate.design.curve_wish import CurveWish
+from fabricate.design.designed import designed
+from fabricate.design.field import field_weights
+from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.errors import OutputError
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.torus import torus
 from fabricate.output.stl import TRIANGLE
+from fabricate.surface.tile_places import TilePlaces
 
 CONFIG = """
 [source]
@@ -102,7 +108,7 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
     assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm"}
     assert set(report["pattern"]) == {
         *("tiles", "tile_size_mm", "tile_quality", "curves", "regions", "curve_length_mm"),
-        *("area_share", "handles", "neck_mm", "band_mm"),
+        *("area_share", "handles", "neck_mm", "band_mm", "alignment", "locked"),
     }
     assert set(report["pattern"]["tile_quality"]) == {
         *("aspect_median", "aspect_p95", "aspect_max", "size_ratio", "warnings"),
@@ -234,7 +240,10 @@ MESHES = {
     "nan.obj": obj(EVEN).replace("v ", "v nan ", 1),
     "odd.obj": obj(ODD),
     "text.obj": "this is not a mesh",
+    "good.ply": ply_with_values("heat", [1, 2, 3, 4]).decode(),
 }
+HEAT = ["pattern.tree=field", "field.kind=attribute"]
+PICTURE = ["pattern.tree=field", "field.kind=image"]
 WRONG = {
     "missing file": ('path = "none.obj"', [], "none.obj"),
     "not a mesh": ('path = "text.obj"', [], "text.obj"),
@@ -251,6 +260,23 @@ WRONG = {
     "no thickness": ('shape = "torus"', ["solid.thickness=0mm"], "thickness"),
     "unknown key": ('shape = "torus"\nsizes = "60 mm"', [], "size"),
     "unknown shape": ('shape = "tors"', [], "torus"),
+    "unknown field": ('shape = "torus"', ["pattern.tree=field", "field.kind=hight"], "height"),
+    "no field": ('shape = "torus"', ["pattern.tree=field"], "[field]"),
+    "no tree": ('shape = "torus"', ["field.kind=height"], "nothing follows"),
+    "missing picture": ('shape = "torus"', [*PICTURE, "field.image=none.png"], "no such file"),
+    "no picture": ('shape = "torus"', [*PICTURE, "field.image=text.obj"], "another kind of file"),
+    "missing attribute": ('path = "good.ply"', [*HEAT, "field.attribute=cold"], "found heat"),
+    "attribute of no PLY": ('path = "good.obj"', [*HEAT, "field.attribute=heat"], "only PLY files"),
+    "two colours at once": (
+        'shape = "torus"',
+        ['pattern.locks=[{joined = "yellow", tiles = [3]}, {joined = "blue", tiles = [3]}]'],
+        "pattern.locks[0] and pattern.locks[1] contradict each other: tile 3",
+    ),
+    "ring of locks": (
+        'shape = "torus"',
+        ['pattern.locks=[{joined = "yellow", side = {point = ["0 mm", "0 mm", "0 mm"], normal = [0, 0, 1]}}]'],
+        "close a ring in yellow",
+    ),
 }
 
 
@@ -282,6 +308,31 @@ def test_a_mesh_from_a_file_makes_a_pair(tmp_path: Path) -> None:
     assert not failed(report, with_printability=False)
     again = run(tmp_path / "out" / "file" / "config.toml", tmp_path / "again")
     assert again.parts == report.parts
+
+
+def test_a_field_of_the_file_and_locks_make_a_pair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The ring lies far from the origin, in metres, and its values are its own heights."""
+    points = EVEN.points * 0.05 + np.array([3.0, -2.0, 7.0])
+    rows = [f"{x} {y} {z} {z}" for x, y, z in points]
+    faces = [f"4 {' '.join(map(str, face))}" for face in EVEN.corners.reshape(-1, 4)]
+    header = ply_with_values("height", [0] * 4).decode().split("end_header")[0].replace("vertex 4", "vertex 32")
+    (tmp_path / "far.ply").write_text("\n".join([header.replace("face 4", "face 32") + "end_header", *rows, *faces]))
+    source = CONFIG.replace('shape = "torus"', 'path = "far.ply"').replace("around = 8\nacross = 4\n", "")
+    locks = '[[pattern.locks]]\njoined = "blue"\nhold = "most"\ntiles = [0, 1, 2, 3]\n'
+    field = '[field]\nkind = "attribute"\nattribute = "height"\n'
+    path = tmp_path / "file.toml"
+    path.write_text(source.replace("seed = 7", f'seed = 7\ntree = "field"\n{locks}') + field)
+    asked: list[tuple[QuadMesh, CurveWish]] = []
+    monkeypatch.setattr(pipeline, "designed", lambda *asking: asked.append(asking) or designed(*asking))
+    report = run(path, tmp_path / "out")
+    assert not failed(report, with_printability=False)
+    assert report.pattern is not None
+    assert report.pattern.locked is not None
+    assert report.pattern.locked["blue"] > 0
+    ((quads, wish),) = asked
+    assert wish.field is not None
+    heights = TilePlaces.of(quads).middle[:, 2]
+    assert np.corrcoef(field_weights(quads, wish.field, seed=0), heights)[0, 1] > 0.97
 
 
 def failed(report: Report, *, with_printability: bool) -> list[str]:

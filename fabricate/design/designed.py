@@ -34,8 +34,8 @@ class Design:
     """
 
     duotone: Duotone
-    locks: TileLocks | None
-    alignment: float | None
+    locks: TileLocks | None = None
+    alignment: float | None = None
 
 
 def grown(quads: QuadMesh, wish: CurveWish) -> Duotone:

@@ -1,4 +1,4 @@
-"""Curve design of a sphere of a million tiles, stage by stage; exits with 1 when it takes too long.
+"""Curve design of a sphere of a million tiles, stage by stage, and every kind of tree; exits with 1 when one is slow.
 
 python tests/benchmarks/curve.py
 """
@@ -12,11 +12,14 @@ from typing import TypeVar
 
 import numpy as np
 
+from fabricate.config import CurvatureConfig, DirectionConfig, DistanceConfig, FieldConfig, HeightConfig
+from fabricate.design.field import FieldWish, field_weights
 from fabricate.duotone.catmull_clark import subdivided
 from fabricate.duotone.certificate import certified
 from fabricate.duotone.curve import traced_arcs
-from fabricate.duotone.quad_mesh import two_coloured
-from fabricate.duotone.spanning_tree import random_duotone
+from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
+from fabricate.duotone.spanning_tree import grown_duotone, random_duotone, weighted_duotone
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import geodesic_sphere
 
@@ -25,6 +28,16 @@ FREQUENCY, LEVELS = 33, 3
 
 TILES, LIMIT, ROUNDS = 1_000_000, 3.0, 3
 """Fewest tiles, most seconds for all stages together, and how many rounds the best is chosen from."""
+
+UNIFORM_FREQUENCY, UNIFORM_LEVELS, UNIFORM_LIMIT = 21, 2, 10.0
+"""105 840 tiles for the tree that is drawn uniformly, and most seconds for it."""
+
+FIELDS: dict[str, FieldConfig] = {
+    "height": HeightConfig(kind="height"),
+    "distance": DistanceConfig(kind="distance"),
+    "curvature": CurvatureConfig(kind="curvature"),
+    "circles": DirectionConfig(kind="direction", lines="circles"),
+}
 
 Result = TypeVar("Result")
 
@@ -60,6 +73,40 @@ def designed(sphere: PolygonMesh) -> Stages:
     return stages
 
 
+def along(quads: QuadMesh, field: FieldConfig) -> Duotone:
+    """Join the tree that follows a field."""
+    return weighted_duotone(quads, field_weights(quads, FieldWish(field), seed=7), seed=7)
+
+
+def strategies() -> bool:
+    """Time every kind of tree, print how long it took, and return whether all were quick enough.
+
+    One that was not is tried again, as often as there are rounds.
+    """
+    quads = subdivided(geodesic_sphere(frequency=FREQUENCY), levels=LEVELS)
+    fewer = subdivided(geodesic_sphere(frequency=UNIFORM_FREQUENCY), levels=UNIFORM_LEVELS)
+    print(f"trees on {len(quads.tiles):,} tiles, the uniform one on {len(fewer.tiles):,}")
+    return all(
+        [
+            quick("uniform", lambda: grown_duotone(fewer, tree="uniform", seed=7), UNIFORM_LIMIT),
+            quick("breadth-first", lambda: grown_duotone(quads, tree="breadth-first", seed=7), LIMIT),
+            quick("depth-first", lambda: grown_duotone(quads, tree="depth-first", seed=7), LIMIT),
+            *(quick(name, lambda field=field: along(quads, field), LIMIT) for name, field in FIELDS.items()),
+        ]
+    )
+
+
+def quick(name: str, grow: Callable[[], Duotone], limit: float) -> bool:
+    seconds = limit + 1.0
+    for _ in range(ROUNDS):
+        if seconds > limit:
+            begin = time.perf_counter()
+            grow()
+            seconds = min(seconds, time.perf_counter() - begin)
+    print(f"  {name:<14}{seconds:6.2f} s   limit {limit:.2f} s: {'holds' if seconds <= limit else 'missed'}")
+    return seconds <= limit
+
+
 def main() -> int:
     sphere = geodesic_sphere(frequency=FREQUENCY)
     best = min((designed(sphere) for _ in range(ROUNDS)), key=lambda stages: stages.total)
@@ -68,7 +115,7 @@ def main() -> int:
         print(f"  {name:<14}{seconds:6.2f} s")
     verdict = "holds" if best.total <= LIMIT else "missed"
     print(f"  {'total':<14}{best.total:6.2f} s   limit {LIMIT:.2f} s: {verdict}")
-    return 0 if best.total <= LIMIT else 1
+    return 0 if strategies() and best.total <= LIMIT else 1
 
 
 if __name__ == "__main__":

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from fabricate.checks.measured import expectations, expected_genus, mesh_facts, pattern_facts
+from fabricate.design.designed import Design
 from fabricate.duotone.certificate import certified
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.spanning_tree import grown_duotone
+from fabricate.duotone.tile_locks import TileLocks
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.torus import torus
 from fabricate.prepare.prepared import Prepared
@@ -59,7 +61,7 @@ def test_a_shifted_surface_is_as_far_away_as_the_shift(
 
 
 def test_a_pattern_is_counted_and_measured(duotone: Duotone, surface: CutSurface) -> None:
-    facts = pattern_facts(duotone, certified(duotone), surface)
+    facts = pattern_facts(Design(duotone), certified(duotone), surface)
     assert (facts.tiles, facts.curves, facts.regions) == (128, 1, 2)
     assert sum(facts.handles.values()) == 1
     assert sum(facts.area_share.values()) == pytest.approx(1)
@@ -67,15 +69,24 @@ def test_a_pattern_is_counted_and_measured(duotone: Duotone, surface: CutSurface
     assert facts.neck_mm.min <= facts.neck_mm.median < facts.tile_size_mm
 
 
+def test_what_the_design_found_is_told(duotone: Duotone, surface: CutSurface) -> None:
+    plain = pattern_facts(Design(duotone), certified(duotone), surface)
+    assert (plain.alignment, plain.locked) == (None, None)
+    yellow = np.arange(len(duotone.joined)) < 3
+    design = Design(duotone, locks=TileLocks(yellow, ~yellow), alignment=0.75)
+    facts = pattern_facts(design, certified(duotone), surface)
+    assert (facts.alignment, facts.locked) == (0.75, {"yellow": 3, "blue": len(duotone.joined) - 3})
+
+
 def test_the_curve_is_two_quarter_circles_per_tile(duotone: Duotone, surface: CutSurface) -> None:
     """On square tiles of side s that is s pi / 2; tiles here are not quite square."""
-    facts = pattern_facts(duotone, certified(duotone), surface)
+    facts = pattern_facts(Design(duotone), certified(duotone), surface)
     assert facts.curve_length_mm == pytest.approx(facts.tiles * facts.tile_size_mm * np.pi / 2, rel=0.25)
 
 
 def test_a_wider_arc_position_gives_yellow_more(duotone: Duotone) -> None:
     share = [
-        pattern_facts(duotone, certified(duotone), fitted_cut(duotone, rings=(arc,), tolerance=0.3)).area_share[
+        pattern_facts(Design(duotone), certified(duotone), fitted_cut(duotone, rings=(arc,), tolerance=0.3)).area_share[
             "yellow"
         ]
         for arc in (0.4, 0.5, 0.6)

@@ -17,7 +17,7 @@ from fabricate.mesh.torus import torus
 from fabricate.prepare.remesh import Cells, Remeshed
 from fabricate.surface.neck import coarse_necks
 from fabricate.surface.sizing import typical_side
-from fabricate.surface.tile_choice import TileWish, chosen_tiling
+from fabricate.surface.tile_choice import TileWish, chosen_tiling, tile_scale
 from fabricate.surface.tiling import Tiling
 
 GROW = partial(grown_duotone, tree="random", seed=3)
@@ -48,6 +48,19 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Cells, int]]:
 
     monkeypatch.setattr("fabricate.surface.tiling.remeshed", remeshed)
     return calls
+
+
+def test_the_scale_is_that_of_the_tiles(asked: list[tuple[Cells, int]]) -> None:
+    small = RING.scaled(0.01)
+    assert tile_scale(small, WISH) == pytest.approx(100.0 * tile_scale(RING, WISH))
+    own = chosen(small, WISH)
+    cage = small.scaled(tile_scale(small, WISH, own))
+    assert tile_scale(cage, WISH) == pytest.approx(1.0)
+    scan = geodesic_sphere(frequency=4)
+    wish = replace(WISH, cage=False, cells="quads")
+    assert tile_scale(scan, wish, chosen(scan, wish)) == pytest.approx(50.0, rel=0.01)
+    assert tile_scale(scan, wish) > 50.5  # the smooth surface of its own cells is smaller than the scan
+    assert asked
 
 
 def chosen(mesh: PolygonMesh, wish: TileWish) -> Tiling:
