@@ -27,7 +27,7 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
 from fabricate.output.sculpture import write_sculpture
-from fabricate.prepare.density import finest_tile
+from fabricate.prepare.density import check_room, finest_tile
 from fabricate.prepare.inspection import Inspection, inspected
 from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
@@ -184,7 +184,8 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
 def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
     """Return what is asked of a body's tiles, and the sentence that says what bound their size, if it is free."""
     source, pattern, prepare = config.source, config.pattern, config.prepare
-    feature, clearance = PROCESSES[config.process.name].feature_min, config.solid.clearance
+    process, clearance = PROCESSES[config.process.name], config.solid.clearance
+    feature = process.feature_min
     wish = TileWish(
         size=source.size,
         tile_size=None if pattern.tile_size == "auto" else pattern.tile_size,
@@ -192,12 +193,15 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         cells="quads" if prepare.cells == "auto" and body.wrapped else prepare.cells,
         neck=NECK_MARGIN * (feature + clearance),
         clearance=clearance,
+        thinnest=2.0 * process.wall_min + clearance,
         resized=pattern.tile_size == "auto",
         rings=pattern.positions,
         seed=prepare.seed,
         cage=not isinstance(source, FileConfig),
         round_limit=isinstance(source, SphereConfig),
     )
+    if isinstance(pattern.tile_size, float):
+        check_room(pattern.positions, tile_size=pattern.tile_size, clearance=clearance)
     if pattern.tile_size != "auto":
         return wish, ()
     finest = finest_tile(feature, clearance, extent=source.size, rings=pattern.positions)

@@ -14,7 +14,8 @@ The codes of all checks, which other programs may rely on; PART stands for the n
     PART.wall                its thinnest wall is thick enough for the process
     FIT.overlap              two parts have no volume in common
     FIT.gap                  the smallest gap between them is at least 95 % of the clearance
-    FIT.mobility             they are captive, separable or fused, as they should be
+    FIT.mobility             they are captive, separable or fused, as they should be; of more than two parts, those
+                             that face each other
     fit.whole                volumes of the parts and the gap add up to the uncut shell
     fit.process_gap          the process keeps the clearance open
     pattern.neck             necks are wide enough for the process

@@ -12,13 +12,13 @@ from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
 from fabricate.checks.facts import Distance, MeshFacts, PatternFacts, Spread, Xyz
 from fabricate.design.designed import Design
 from fabricate.duotone.certificate import Certificate, RegionFacts
-from fabricate.duotone.region_names import region_names
 from fabricate.duotone.tile_locks import TileLocks
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.tile_quality import tile_quality
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.process import Process
+from fabricate.region_names import region_names
 from fabricate.solid.assembly import Assembly, Core
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.deviation import deviation

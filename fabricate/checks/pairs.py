@@ -88,13 +88,14 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
     smaller = min(first.manifold.volume(), second.manifold.volume())
     apart = not only_pair and clearance is not None and gap.min > REACH * clearance
     found = None if apart else _found_mobility(spacing, gap, clearance)
-    checks = (
+    checks = [
         overlap_check(f"{prefix}.overlap", first.part, second.part, common, smaller_volume=smaller),
         gap_check(f"{prefix}.gap", first.part, second.part, gap, clearance=clearance),
-        _moving(f"{prefix}.mobility", first.part, second.part, found, expectations, apart=apart),
-    )
+    ]
+    if not apart:
+        checks.append(_moving(f"{prefix}.mobility", first.part, second.part, found, expectations))
     verdict, play = found or (None, None)
-    return _Pair(PairFacts(gap_mm=gap, overlap_mm3=common.volume(), verdict=verdict, play_mm=play), checks)
+    return _Pair(PairFacts(gap_mm=gap, overlap_mm3=common.volume(), verdict=verdict, play_mm=play), tuple(checks))
 
 
 def _unmeasured(prefix: str, first: Part, second: Part, *, spoiler: Part) -> _Pair:
@@ -112,13 +113,10 @@ def _found_mobility(spacing: Spacing, gap: Gap, clearance: float | None) -> Mobi
     return None if clearance is None else mobility(spacing, clearance=clearance)
 
 
-def _moving(
-    code: str, first: Part, second: Part, found: Mobility | None, expectations: Expectations, *, apart: bool
-) -> Check:
+def _moving(code: str, first: Part, second: Part, found: Mobility | None, expectations: Expectations) -> Check:
     if found is not None:
         return mobility_check(code, first, second, found, expected=expectations.expected_verdict)
-    reason = "other parts lie between them" if apart else "the clearance is not known"
-    message = f"how {first.name} and {second.name} move was not judged, because {reason}"
+    message = f"how {first.name} and {second.name} move was not judged, because the clearance is not known"
     return Check(code, ok=False, skipped=True, message=message)
 
 

@@ -12,7 +12,9 @@ from pydantic import Discriminator, Field, PrivateAttr, Tag, model_validator
 from fabricate.config.length import Length
 from fabricate.config.section import ConfigFolder, Section, wrong_value
 
-Size: TypeAlias = Annotated[Length, Field(gt=0, le=10_000, description="Longest side of the sculpture.")]
+Size: TypeAlias = Annotated[
+    Length, Field(gt=0, le=10_000, description="Longest side of the sculpture; of each, where there are several.")
+]
 
 
 class SphereConfig(Section):

@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
-from fabricate.duotone.region_names import region_names
 from fabricate.errors import SolidError
+from fabricate.region_names import region_names
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.neck import band_widths, tile_necks
+from fabricate.surface.neck import band_widths, tile_areas, tile_necks
 from fabricate.triangles.normals import unit
 
 ROOMY = 2.0
@@ -25,6 +25,9 @@ ROOMY = 2.0
 
 FARTHEST = 0.95
 """The largest share of its ray that a copy moves."""
+
+REFUSED = 0.25
+"""Share of the surface whose necks must not be wholly taken by the clearance."""
 
 STEEPEST = 0.3
 """Smallest cosine between a ray and the way straight across the curve that is made up for."""
@@ -60,19 +63,25 @@ class Shares(NamedTuple):
 
 
 def check_necks(surface: CutSurface, *, clearance: float) -> None:
-    """Raise an error if the clearance, mm, leaves nothing of a quarter of the necks, or of a band in as many tiles.
+    """Raise an error if the clearance, mm, leaves nothing of the necks on a quarter of the surface.
 
-    Half of the tiles are joined by either colour, so that is about half of the narrower colour's necks.
+    Or nothing of a band in a quarter of the tiles.
+
+    Half of the tiles are joined by either colour, so that is about half of the narrower colour's necks. Tiles count by
+    their area: many small ones on a thin handle are no reason to refuse the body that it is on.
 
     Raises
     ------
     SolidError
     """
-    neck = float(np.quantile(tile_necks(surface)[0], 0.25))
+    necks, areas = tile_necks(surface)[0], tile_areas(surface)
+    order = np.argsort(necks)
+    covered = np.cumsum(areas[order])
+    neck = float(necks[order][np.searchsorted(covered, REFUSED * covered[-1])])
     if clearance >= neck:
         raise SolidError(
-            f"a clearance of {clearance:g} mm leaves nothing of a quarter of the necks, which are at most "
-            f"{neck:.3g} mm wide; ask for a smaller solid.clearance, a larger pattern.tile_size "
+            f"a clearance of {clearance:g} mm leaves nothing of the necks on a quarter of the surface, which are at "
+            f"most {neck:.3g} mm wide; ask for a smaller solid.clearance, a larger pattern.tile_size "
             "or a pattern.arc nearer to 0.5"
         )
     names = region_names(len(surface.rings) + 1)[1:-1]
@@ -99,7 +108,7 @@ def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearanc
     parts find it.
     """
     wanted = clearance / _uprightness(sides.left[:, 0], normals, down)
-    lengths = [_length(side) for side in sides]
+    lengths = [half_length(side) for side in sides]
     slants = _slants(sides, normals)
     room = np.maximum(np.stack([length * slant for length, slant in zip(lengths, slants, strict=True)]), 1e-9)
     crowded = np.clip(ROOMY - room.min(axis=0) / wanted, 0.0, 1.0)
@@ -139,7 +148,8 @@ def along(side: Floats, shares: Floats) -> Floats:
     return result
 
 
-def _length(side: Floats) -> Floats:
+def half_length(side: Floats) -> Floats:
+    """Return the length of each half-ray, (c,) float, mm."""
     length: Floats = np.linalg.norm(np.diff(side, axis=1), axis=2).sum(axis=1)
     return length
 

@@ -19,6 +19,7 @@ from fabricate.errors import SolidError
 from fabricate.solid.clearance import check_necks, clearance_shares, moved_copies, ray_sides, too_near
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
+from fabricate.surface.neck import tile_areas
 from fabricate.surface.resolution import resolution_for
 from fabricate.surface.tile_sliding import slid_tiles
 
@@ -29,7 +30,7 @@ BENEATH = 0.08
 """The clearance must fit on the surface and this far below it, mm: a wall is at least as thick."""
 
 MOST_TIGHT = 0.1
-"""With a larger share of tight tiles there is no room to take from."""
+"""With tight tiles on a larger share of the surface there is no room to take from."""
 
 ROUNDS, PATIENCE = 40, 4
 """Rounds of measuring and sliding, and rounds without progress before giving up."""
@@ -49,7 +50,7 @@ def fitted_cut(
         If the rings are out of range or do not increase, the tolerance would need too many triangles, or the duotone
         has more than one curve.
     SolidError
-        If the clearance is as wide as necks are, or does not fit into more than a tenth of the tiles.
+        If the clearance is as wide as necks are, or does not fit into the tiles on more than a tenth of the surface.
     """
     resolution = resolution_for(duotone, LimitSurface.of(duotone.quads), rings=rings, tolerance=tolerance)
     return settled(duotone, clearance=clearance, rings=rings, resolution=resolution)
@@ -62,8 +63,8 @@ def settled(duotone: Duotone, *, clearance: float, rings: Sequence[float], resol
     check_necks(surface, clearance=clearance)
     fewest, waited = len(duotone.joined) + 1, 0
     for _ in range(ROUNDS if clearance > 0.0 else 0):
-        tight = tight_tiles(surface, clearance=clearance)
-        if tight.mean() > MOST_TIGHT:
+        tight, areas = tight_tiles(surface, clearance=clearance), tile_areas(surface)
+        if areas[tight].sum() > MOST_TIGHT * areas.sum():
             raise SolidError(
                 f"a clearance of {clearance:g} mm does not fit into {int(tight.sum())} of {len(tight)} tiles; "
                 "ask for a smaller solid.clearance or a larger pattern.tile_size, or divide a mesh with larger faces"

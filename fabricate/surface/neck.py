@@ -136,3 +136,12 @@ def _nearest(surface: CutSurface, first_arcs: Indices, second_arcs: Indices) -> 
         middle = 0.5 * (first[:, k] + second[np.arange(len(second)), nearest])
         place[better] = middle[better]
     return best, place
+
+
+def tile_areas(surface: CutSurface) -> Floats:
+    """Return the area of each tile, (t,) float, mm2, measured between the ends of its rays."""
+    ends = surface.points[surface.rays[:, :, [0, -1]]]
+    across, back = ends[:, 1:, 1] - ends[:, :-1, 0], ends[:, :-1, 1] - ends[:, 1:, 0]
+    halves = 0.5 * np.linalg.norm(np.cross(across, back), axis=2).sum(axis=1)
+    areas: Floats = halves[0::2] + halves[1::2]
+    return areas

@@ -12,6 +12,7 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.density import mostly_triangles, too_fine
 from fabricate.prepare.remesh import Cells
 from fabricate.prepare.store import NOTHING_KEPT, Store
+from fabricate.prepare.thin_handles import without_thin_handles
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.surface.neck import coarse_necks
 from fabricate.surface.sizing import smooth_scale, typical_side
@@ -55,6 +56,8 @@ class TileWish:
         Narrowest neck that will do, mm, before clearance is taken off.
     clearance : float
         Gap between facing walls, mm.
+    thinnest : float
+        Handles thinner and holes narrower than this, mm, get no new cells: the surface is made without them.
     resized : bool
         Whether coarser own cells, or new ones, may take the place of tiles with narrower necks.
     rings : tuple of float
@@ -73,6 +76,7 @@ class TileWish:
     cells: CellChoice
     neck: float
     clearance: float
+    thinnest: float
     resized: bool
     rings: tuple[float, ...]
     seed: int
@@ -136,11 +140,13 @@ def _new(
     progress: Callable[[str], None],
     store: Store,
 ) -> Tiling:
-    """Return new cells, widened."""
-    whole = _surface(mesh, wish)
+    """Return new cells, widened, for the surface without its thin handles."""
+    simplified = without_thin_handles(_surface(mesh, wish), thinnest=wish.thinnest)
+    whole = simplified.surface
     made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=wish.seed, progress=progress, store=store)
     progress("widening narrow tiles")
-    return replace(made, quads=widened(made.quads, whole, rings=wish.rings, neck=wish.neck))
+    quads = widened(made.quads, whole, rings=wish.rings, neck=wish.neck)
+    return replace(made, quads=quads, notes=(*simplified.notes, *made.notes))
 
 
 def _instead_of(

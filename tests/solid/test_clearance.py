@@ -4,24 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from crowding import crowded_torus
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from polyhedra import seeds
 
 from fabricate.duotone.spanning_tree import grown_duotone
+from fabricate.errors import SolidError
 from fabricate.mesh.torus import torus
 from fabricate.solid.clearance import (
     FARTHEST,
     RaySides,
     Shares,
     along,
+    check_necks,
     clearance_shares,
     moved_copies,
     ray_sides,
     too_near,
 )
 from fabricate.solid.settling import fitted_cut
-from fabricate.surface.cut import CutSurface
+from fabricate.surface.cut import CutSurface, cut
+from fabricate.surface.limit import LimitSurface
+from fabricate.surface.neck import tile_areas, tile_necks
 from fabricate.surface.sizing import sized, tiled
 
 
@@ -33,6 +38,19 @@ def surface() -> CutSurface:
 
 def sides_of(surface: CutSurface) -> RaySides:
     return ray_sides(surface, surface.points)[0]
+
+
+def test_many_small_tiles_do_not_refuse_a_body_but_narrow_necks_everywhere_do() -> None:
+    duotone = crowded_torus()
+    cut_up = cut(duotone, LimitSurface.of(duotone.quads), rings=(0.5,), resolution=4)
+    necks, areas = tile_necks(cut_up)[0], tile_areas(cut_up)
+    order = np.argsort(necks)
+    share = np.cumsum(areas[order]) / areas.sum()
+    just_fits = float(necks[order][np.searchsorted(share, 0.25)])
+    assert just_fits > np.quantile(necks, 0.25)
+    check_necks(cut_up, clearance=0.99 * just_fits)
+    with pytest.raises(SolidError, match="leaves nothing of the necks on a quarter of the surface"):
+        check_necks(cut_up, clearance=1.01 * just_fits)
 
 
 @given(seed=seeds, steps=st.integers(1, 6), count=st.integers(1, 5))

@@ -16,7 +16,7 @@ from fabricate.duotone.spanning_tree import random_duotone
 from fabricate.mesh.cube import cube
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
-from fabricate.surface.neck import NeckGauge, band_widths, coarse_necks, tile_necks
+from fabricate.surface.neck import NeckGauge, band_widths, coarse_necks, tile_areas, tile_necks
 from fabricate.surface.sizing import tile_sides
 
 SIDE = 4.0
@@ -123,3 +123,13 @@ def test_necks_measured_quickly_are_those_of_a_fine_cut(arc: float) -> None:
     off = coarse_necks(roomy, rings=(arc,)) - fine
     assert off.min() > -1e-9
     assert (off < 0.03 * tile_sides(roomy.quads).reshape(-1, 4).max(axis=1)).all()
+
+
+def test_areas_of_tiles_are_those_of_flat_squares_and_add_up() -> None:
+    surface = cut_up(random_duotone(CUBE, seed=1), 0.4, 6)
+    areas = tile_areas(surface)
+    assert areas[flat_squares(CUBE)] == pytest.approx(SIDE**2)
+    first, second, third = (surface.points[surface.triangles[:, k]] for k in range(3))
+    assert areas.sum() == pytest.approx(
+        np.linalg.norm(np.cross(second - first, third - first), axis=1).sum() / 2, rel=0.01
+    )

@@ -29,6 +29,7 @@ WISH = TileWish(
     cells="auto",
     neck=0.1,
     clearance=0.05,
+    thinnest=0.1,
     resized=True,
     rings=(0.5,),
     seed=0,
