@@ -15,7 +15,7 @@ from fabricate.duotone.flipping import FlippingCurve
 COOLED = 1e-3
 """The last temperature as a share of the first."""
 
-WHOLE = 1e-9
+LEAST = 1e-9
 """Sums that are carried along must have become smaller by more than this to be called better."""
 
 
@@ -138,7 +138,7 @@ class _Search:
                 return False
             change, self._of_whole = change + of_whole - self._of_whole, of_whole
         self._above_best += change
-        if self._above_best < -WHOLE:
+        if self._above_best < -LEAST:
             self.best, self._above_best = self._curve.joined.copy(), 0.0
         return True
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import breadth_first_order
 
-from fabricate.arrays import Indices, Mask
+from fabricate.arrays import Mask
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
 
@@ -15,34 +15,46 @@ def longest_corridor(duotone: Duotone) -> int:
     """Return the length of the longest corridor of yellow, in tiles: the diameter of the graph of its joined tiles.
 
     From any point one goes to the farthest, and from there to the farthest again. In a tree that is the longest path;
-    where yellow has handles it is a shortest way between two points, at most the diameter and at least half of it.
+    where yellow has handles it is the shortest way between two points, at most the diameter and at least half of it.
     """
-    return _length(duotone.quads, duotone.joined)
+    return Corridors(duotone.quads).longest(duotone.joined)
+
+
+class Corridors:
+    """The yellow graph of all tiles, sorted once, so that those that are joined can be picked out again and again."""
+
+    def __init__(self, quads: QuadMesh) -> None:
+        tails, heads = quads.tiles[:, [0, 2]].T.ravel(), quads.tiles[:, [2, 0]].T.ravel()
+        by_tail = np.argsort(tails, kind="stable")
+        self._heads, self._tiles = heads[by_tail], by_tail % len(quads.tiles)
+        self._begins = np.searchsorted(tails[by_tail], np.arange(len(quads.points) + 1))
+
+    def longest(self, joined: Mask) -> int:
+        """Return `longest_corridor` of tiles in these states, (t,) bool."""
+        used = joined[self._tiles]
+        begins = np.append(0, np.cumsum(used))[self._begins]
+        nodes = len(begins) - 1
+        graph = csr_array((np.ones(begins[-1]), self._heads[used], begins), shape=(nodes, nodes))
+        far = breadth_first_order(graph, int(self._heads[used.argmax()]), return_predecessors=False)[-1]
+        order, before = breadth_first_order(graph, far)
+        return _steps(before.tolist(), int(order[-1]))
 
 
 class CorridorCost:
     """Less by `step` for each tile of the longest corridor; see `fabricate.design.annealing.WholeCost`."""
 
     def __init__(self, quads: QuadMesh, *, step: float) -> None:
-        self._quads = quads
+        self._corridors = Corridors(quads)
         self.step = step
 
     def of(self, joined: Mask) -> float:
         """Return the cost of tiles in these states, (t,) bool; takes time in proportion to all tiles."""
-        return -self.step * _length(self._quads, joined)
+        return -self.step * self._corridors.longest(joined)
 
 
-def _length(quads: QuadMesh, joined: Mask) -> int:
-    ends = quads.tiles[joined][:, [0, 2]]
-    graph = _graph(np.concatenate([ends, ends[:, ::-1]]), len(quads.points))
-    away = dijkstra(graph, unweighted=True, indices=int(ends[0, 0]))
-    farthest = int(np.where(np.isfinite(away), away, -1.0).argmax())
-    away = dijkstra(graph, unweighted=True, indices=farthest)
-    return int(away[np.isfinite(away)].max())
-
-
-def _graph(pairs: Indices, nodes: int) -> csr_array:
-    """Return the graph of directed pairs; parallel ones stay entries of their own."""
-    by_tail = np.argsort(pairs[:, 0], kind="stable")
-    begins = np.searchsorted(pairs[by_tail, 0], np.arange(nodes + 1))
-    return csr_array((np.ones(len(pairs)), pairs[by_tail, 1], begins), shape=(nodes, nodes))
+def _steps(before: list[int], node: int) -> int:
+    """Return how many steps lead from a node back to where the search began."""
+    steps = 0
+    while before[node] >= 0:
+        node, steps = before[node], steps + 1
+    return steps

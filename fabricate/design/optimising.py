@@ -21,6 +21,9 @@ from fabricate.surface.neck import NeckGauge
 SHARPNESS = 4
 """Power by which narrow necks count more than wide ones."""
 
+NARROW = 10.0
+"""What a tile without any neck costs, with all weights together for the unit."""
+
 TOLD = 10
 """How often progress is told."""
 
@@ -61,6 +64,7 @@ def optimised(
     weights: Weights,
     *,
     arc: float,
+    neck: float,
     flips: int,
     seed: int,
     seconds: float | None = None,
@@ -70,7 +74,8 @@ def optimised(
 ) -> Optimised:
     """Return the duotone after flips of interlaced tiles that make the weighted sum of objectives better.
 
-    Both regions keep their handles. The same arguments give the same duotone, unless time runs out. It may be
+    Both regions keep their handles. Tiles whose necks would become narrower than `neck` are kept from it as far as
+    the tiles allow, whatever counts. The same arguments give the same duotone, unless time runs out. It may be
     interrupted at any time; nothing that is given is changed.
 
     Parameters
@@ -81,6 +86,8 @@ def optimised(
         How much each objective counts.
     arc : float
         Where the curve crosses tile sides, from their yellow ends.
+    neck : float
+        Narrowest neck that will do, mm, before clearance is taken off.
     flips : int
         Flips that are tried; about 20 for each tile are enough.
     seed : int
@@ -103,7 +110,7 @@ def optimised(
     tiles = len(duotone.joined)
     found = annealed(
         duotone,
-        _local_costs(duotone, weights, necks, alignments, arc),
+        _local_costs(duotone, weights, necks, neck, alignments, arc),
         flips=flips,
         seed=seed,
         free=np.ones(tiles, dtype=bool) if free is None else free,
@@ -116,12 +123,13 @@ def optimised(
 
 
 def _local_costs(
-    duotone: Duotone, weights: Weights, necks: Floats, alignments: Floats | None, arc: float
+    duotone: Duotone, weights: Weights, necks: Floats, neck: float, alignments: Floats | None, arc: float
 ) -> list[LocalCost]:
     """Return the costs that count, each about as large as the number of tiles when its weight is 1."""
-    of_tiles = weights.neck * (np.median(necks) / necks) ** SHARPNESS
+    of_tiles = NARROW * weights.total * np.maximum(1.0 - necks / neck, 0.0)
+    of_tiles += weights.neck * (np.median(necks) / necks) ** SHARPNESS
     if alignments is not None:
-        of_tiles = of_tiles - weights.alignment * alignments
+        of_tiles -= weights.alignment * alignments
     costs: list[LocalCost] = [TileCost(of_tiles, duotone.joined)]
     if weights.tips:
         costs.append(TipCost(duotone, weight=weights.tips))

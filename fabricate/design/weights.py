@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,6 +30,6 @@ class Weights:
     corridor: float = 0.0
 
     @property
-    def any(self) -> bool:
-        """Whether anything counts at all."""
-        return any((self.neck, self.evenness, self.alignment, self.tips, self.corridor))
+    def total(self) -> float:
+        """How much all objectives count together; 0 if none does."""
+        return sum(abs(weight) for weight in astuple(self))
