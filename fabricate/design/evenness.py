@@ -25,22 +25,25 @@ def unevenness(duotone: Duotone, *, arc: float) -> float:
     return float(np.sqrt(np.square(_deviations(duotone, arc, _window(duotone.quads))).mean()))
 
 
+def chance_unevenness(quads: QuadMesh, *, arc: float) -> float:
+    """Return the unevenness to be expected if a coin were tossed for each tile."""
+    return _chance(_window(quads), arc)
+
+
 class EvennessCost:
     """`weight` times the sum of all neighbourhoods' squared deviations; see `fabricate.design.local_cost`.
 
-    Squared deviations are divided by the variance that tossing a coin for each tile would give, so that they are
-    about 1 for a random pattern, whatever the surface.
+    Deviations are measured in those that chance would give, so that the cost is about the number of tiles.
     """
 
     def __init__(self, duotone: Duotone, *, arc: float, weight: float) -> None:
         window = _window(duotone.quads)
         swing = _swing(arc)
-        coin = np.square(swing / 2) * float(window.power(2).sum()) / len(duotone.joined)
         self._pairs = csr_array(window.T @ window)
         self._own = self._pairs.diagonal()
         self._slope: Floats = window.T @ _deviations(duotone, arc, window)
         self._step = np.where(duotone.joined, -swing, swing)
-        self._weight = weight / coin
+        self._weight = weight / _chance(window, arc) ** 2
 
     def changes(self, tiles: Indices) -> Floats:
         """Return by how much the cost would change if one of these tiles were flipped, for each of them."""
@@ -53,6 +56,10 @@ class EvennessCost:
         row = slice(self._pairs.indptr[tile], self._pairs.indptr[tile + 1])
         self._slope[self._pairs.indices[row]] += self._step[tile] * self._pairs.data[row]
         self._step[tile] *= -1.0
+
+
+def _chance(window: csr_array, arc: float) -> float:
+    return 0.5 * _swing(arc) * float(np.sqrt(window.power(2).sum() / window.shape[0]))
 
 
 def _swing(arc: float) -> float:

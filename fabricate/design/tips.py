@@ -26,8 +26,8 @@ class TipCost:
         """Return by how much the cost would change if one of these tiles were flipped, for each of them."""
         now = self._degrees[self._tiles[tiles]]
         then = now + self._steps[tiles]
-        more = np.count_nonzero(then == 1, axis=1) - np.count_nonzero(now == 1, axis=1)
-        return self._weight * more
+        change: Floats = self._weight * (np.count_nonzero(then == 1, axis=1) - np.count_nonzero(now == 1, axis=1))
+        return change
 
     def flip(self, tile: int) -> None:
         """Take note that a tile is flipped."""

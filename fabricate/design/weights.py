@@ -32,4 +32,4 @@ class Weights:
     @property
     def total(self) -> float:
         """How much all objectives count together; 0 if none does."""
-        return sum(abs(weight) for weight in astuple(self))
+        return float(sum(abs(weight) for weight in astuple(self)))

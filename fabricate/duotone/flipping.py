@@ -96,10 +96,12 @@ class FlippingCurve:
         if end - begin <= len(self._order) // 2:
             arcs = self._order[begin + 1 : end]
             back = self._place[arcs ^ 1]
-            return arcs[(back < begin) | (back > end)] // 2
+            inner: Indices = arcs[(back < begin) | (back > end)] // 2
+            return inner
         arcs = np.concatenate([self._order[end + 1 :], self._order[:begin]])
         back = self._place[arcs ^ 1]
-        return arcs[(back > begin) & (back < end)] // 2
+        outer: Indices = arcs[(back > begin) & (back < end)] // 2
+        return outer
 
     def interlaced_among(self, tiles: Mask) -> Mask:
         """Return which tiles of a set, (t,) bool, are interlaced with any other tile of that set.

@@ -17,7 +17,6 @@ import numpy as np
 from fabricate.arrays import Indices, Mask
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.flipping import FlippingCurve
-from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.errors import PatternError
 
 
