@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple, get_args
 
 from fabricate.config.field_config import FIELDS, FieldConfig
+from fabricate.config.optimise_config import OptimiseConfig
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
@@ -21,6 +22,7 @@ SECTIONS: Mapping[str, tuple[type[Section], ...]] = MappingProxyType(
         "prepare": (PrepareConfig,),
         "pattern": (PatternConfig,),
         "field": get_args(FieldConfig),
+        "optimise": (OptimiseConfig,),
         "solid": (SolidConfig,),
         "process": (ProcessConfig,),
     }

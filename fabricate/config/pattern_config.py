@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from fabricate.config.handles_config import Handles, HandlesConfig
 from fabricate.config.length import Length
 from fabricate.config.lock_config import LockConfig
 from fabricate.config.point import Point, as_tuple
@@ -33,6 +34,8 @@ class PatternConfig(Section):
     """Where the curve crosses tile edges, from the yellow end; more gives yellow a larger share."""
     rings: RingDesign | Rings | None = Field(default=None, examples=["three"])
     """Several such places, for bands between yellow and blue along the whole curve; instead of arc."""
+    handles: Handles = HandlesConfig()
+    """Handles of the surface that yellow gets, such as { yellow = 1 }; even: half of them, and blue the odd one."""
     locks: Annotated[tuple[LockConfig, ...], BeforeValidator(as_tuple), Takes("tables [[pattern.locks]]")] | None = (
         Field(default=None, examples=[[{"joined": "yellow", "tiles": [4, 5]}]])
     )

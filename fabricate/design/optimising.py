@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
 
 from fabricate.arrays import Floats, Mask
-from fabricate.design.annealing import annealed
+from fabricate.config.optimise_config import OptimiseConfig
+from fabricate.design.annealing import Annealed, annealed
 from fabricate.design.corridor import CorridorCost, longest_corridor
 from fabricate.design.evenness import EvennessCost, unevenness
 from fabricate.design.local_cost import LocalCost, TileCost
 from fabricate.design.tips import TipCost, tip_count
-from fabricate.design.weights import Weights
 from fabricate.duotone.duotone import Duotone
 from fabricate.surface.neck import NeckGauge
 
@@ -47,28 +47,24 @@ class Optimised:
     objectives : mapping of str to Change
         "neck", the necks' power mean of exponent -4, mm; "evenness", see `unevenness`; "alignment", mean |cos|, where
         there are directions; "tips", how many; "corridor", the longest one in tiles.
-    flips : int
-        Pairs of tiles that were flipped on the way.
-    tried : int
-        Flips that were tried: fewer than were asked for if time ran out.
+    notes : tuple of str
+        That time ran out, if it did.
     """
 
     duotone: Duotone
     objectives: Mapping[str, Change]
-    flips: int
-    tried: int
+    notes: tuple[str, ...]
 
 
 def optimised(
     duotone: Duotone,
-    weights: Weights,
+    asked: OptimiseConfig,
     *,
-    arc: float,
+    rings: Sequence[float],
     neck: float,
-    flips: int,
     seed: int,
-    seconds: float | None = None,
     alignments: Floats | None = None,
+    across: bool = False,
     free: Mask | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Optimised:
@@ -82,20 +78,19 @@ def optimised(
     ----------
     duotone : Duotone
         With one curve.
-    weights : Weights
-        How much each objective counts.
-    arc : float
-        Where the curve crosses tile sides, from their yellow ends.
+    asked : OptimiseConfig
+        How much each objective counts, and how long it may take. The costs that are weighed are about as large as
+        the number of tiles; where weights are equal, objectives are about equally strong.
+    rings : sequence of float
+        Where the curves cross tile sides, from their yellow ends; yellow ends at the first.
     neck : float
         Narrowest neck that will do, mm, before clearance is taken off.
-    flips : int
-        Flips that are tried; about 20 for each tile are enough.
     seed : int
         Draws what is tried.
-    seconds : float, optional
-        Ends the search with the best so far when more time has passed.
     alignments : (t, 2) float, optional
         |cos| between the directions of a field and each tile's yellow and blue diagonal; see `alignment_costs`.
+    across : bool
+        Whether alignment is optimised across these directions, and not along them.
     free : (t,) bool, optional
         Tiles that may be flipped; all by default.
     progress : callable
@@ -104,37 +99,39 @@ def optimised(
     Raises
     ------
     PatternError
-        If the arc position is out of range or the duotone has more than one curve.
+        If the positions of the arcs are out of range or do not increase, or the duotone has more than one curve.
     """
-    necks = NeckGauge.of(duotone.quads, arc=arc).necks(duotone.quads.points)
-    tiles = len(duotone.joined)
+    necks = NeckGauge.of(duotone.quads, rings=rings).necks(duotone.quads.points)
+    costs = _tile_costs(asked, necks, neck, alignments, across)
     found = annealed(
         duotone,
-        _local_costs(duotone, weights, necks, neck, alignments, arc),
-        flips=flips,
+        _local_costs(duotone, asked, costs, rings[0]),
+        flips=asked.flips,
         seed=seed,
-        free=np.ones(tiles, dtype=bool) if free is None else free,
-        whole=CorridorCost(duotone.quads, step=2.0 * weights.corridor) if weights.corridor else None,
-        stopped=_watch(flips, seconds, progress),
+        free=np.ones(len(costs), dtype=bool) if free is None else free,
+        whole=CorridorCost(duotone.quads, step=2.0 * asked.corridor) if asked.corridor else None,
+        stopped=_watch(asked, progress),
     )
-    before, after = (_measured(each, necks, alignments, arc) for each in (duotone, found.duotone))
+    before, after = (_measured(each, necks, alignments, rings[0]) for each in (duotone, found.duotone))
     objectives = {name: Change(value, after[name]) for name, value in before.items()}
-    return Optimised(found.duotone, objectives, found.made, found.tried)
+    return Optimised(found.duotone, objectives, _notes(found, asked))
 
 
-def _local_costs(
-    duotone: Duotone, weights: Weights, necks: Floats, neck: float, alignments: Floats | None, arc: float
-) -> list[LocalCost]:
-    """Return the costs that count, each about as large as the number of tiles when its weight is 1."""
-    of_tiles = NARROW * weights.total * np.maximum(1.0 - necks / neck, 0.0)
-    of_tiles += weights.neck * (np.median(necks) / necks) ** SHARPNESS
+def _tile_costs(asked: OptimiseConfig, necks: Floats, neck: float, alignments: Floats | None, across: bool) -> Floats:
+    """Return what each tile costs yellow-joined and blue-joined, (t, 2) float."""
+    costs: Floats = NARROW * asked.total * np.maximum(1.0 - necks / neck, 0.0)
+    costs += asked.neck * (np.median(necks) / necks) ** SHARPNESS
     if alignments is not None:
-        of_tiles -= weights.alignment * alignments
+        costs += (asked.alignment if across else -asked.alignment) * alignments
+    return costs
+
+
+def _local_costs(duotone: Duotone, asked: OptimiseConfig, of_tiles: Floats, arc: float) -> list[LocalCost]:
     costs: list[LocalCost] = [TileCost(of_tiles, duotone.joined)]
-    if weights.tips:
-        costs.append(TipCost(duotone, weight=weights.tips))
-    if weights.evenness:
-        costs.append(EvennessCost(duotone, arc=arc, weight=weights.evenness))
+    if asked.tips:
+        costs.append(TipCost(duotone, weight=asked.tips))
+    if asked.evenness:
+        costs.append(EvennessCost(duotone, arc=arc, weight=asked.evenness))
     return costs
 
 
@@ -150,13 +147,22 @@ def _measured(duotone: Duotone, necks: Floats, alignments: Floats | None, arc: f
     return {**values, "tips": float(tip_count(duotone)), "corridor": float(longest_corridor(duotone))}
 
 
-def _watch(flips: int, seconds: float | None, progress: Callable[[str], None]) -> Callable[[int], bool]:
+def _watch(asked: OptimiseConfig, progress: Callable[[str], None]) -> Callable[[int], bool]:
     """Return a function that tells of progress and says whether time is up, for the number of tries so far."""
-    begin, every = perf_counter(), max(1, flips // TOLD)
+    begin, every = perf_counter(), max(1, asked.flips // TOLD)
 
     def stopped(tried: int) -> bool:
         if tried % every == 0:
-            progress(f"optimising: {tried} of {flips} flips tried")
-        return seconds is not None and perf_counter() - begin >= seconds
+            progress(f"optimising: {tried} of {asked.flips} flips tried")
+        return asked.seconds is not None and perf_counter() - begin >= asked.seconds
 
     return stopped
+
+
+def _notes(found: Annealed, asked: OptimiseConfig) -> tuple[str, ...]:
+    if found.tried == asked.flips or asked.seconds is None:
+        return ()
+    return (
+        f"optimising ended after {found.tried} of {asked.flips} flips, when {asked.seconds:g} s were over: "
+        "another run may give another curve",
+    )
