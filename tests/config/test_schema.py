@@ -15,5 +15,5 @@ def test_the_schema_shows_configs_as_they_are_written() -> None:
     assert (pattern["levels"]["type"], pattern["levels"]["maximum"]) == ("integer", 12)
     assert "default" not in pattern["levels"]
     assert "null" not in json.dumps(schema)
-    assert {"source", "prepare", "pattern", "field", "solid", "process"} == set(schema["properties"])
+    assert {"source", "prepare", "pattern", "field", "optimise", "solid", "process"} == set(schema["properties"])
     assert all(not each.get("additionalProperties", True) for each in schema["$defs"].values())

@@ -54,10 +54,10 @@ def along_circles(quads: QuadMesh) -> Floats:
     return costs
 
 
-def better(duotone: Duotone, *, neck: float = 0.1, across: bool = False, **asked: float) -> Optimised:
+def better(duotone: Duotone, *, least: float = 0.1, across: bool = False, **asked: float) -> Optimised:
     config = OptimiseConfig.model_validate({"flips": 2500, **asked})
     alignments = along_circles(duotone.quads)
-    return optimised(duotone, config, arc=0.5, neck=neck, seed=3, alignments=alignments, across=across)
+    return optimised(duotone, config, arc=0.5, neck=least, seed=3, alignments=alignments, across=across)
 
 
 @pytest.mark.parametrize(("name", "weight", "sign"), BETTER)
@@ -98,7 +98,7 @@ def test_narrow_necks_are_kept_out_whatever_counts() -> None:
     duotone = SHAPES["knot"]
     neck = float(np.quantile(coarse_necks(duotone, arc=0.5), 0.3))
     narrow = [
-        np.count_nonzero(coarse_necks(better(duotone, tips=1, neck=each).duotone, arc=0.5) < neck)
+        np.count_nonzero(coarse_necks(better(duotone, tips=1, least=each).duotone, arc=0.5) < neck)
         for each in (0.01, neck)
     ]
     necks = NeckGauge.of(duotone.quads, arc=0.5).necks(duotone.quads.points)
