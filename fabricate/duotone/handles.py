@@ -77,8 +77,8 @@ def with_handles(
         pair = _best_pair(curve, allowed & (curve.joined != blue_joined), rank)
         if pair is None:
             raise PatternError(
-                f"the locked tiles leave yellow with {yellow_handles(curve.duotone)} handles, expected {yellow}: "
-                "lock fewer tiles or ask for other pattern.handles"
+                f"pattern.handles.yellow: expected {yellow}, but locked tiles keep it at "
+                f"{yellow_handles(curve.duotone)}: lock fewer tiles or ask for another number"
             )
         curve.flip(*pair)
     return curve.duotone

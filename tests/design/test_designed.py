@@ -113,7 +113,7 @@ def figure_eight() -> QuadMesh:
 
 def test_yellow_gets_the_handles_asked_for_and_locked_tiles_stay() -> None:
     quads = figure_eight()
-    locks = (LockConfig(joined="blue", near=(20.0, 0.0, 0.0), within=15.0, hold="most"),)
+    locks = (LockConfig(joined="blue", near=(20.0, 0.0, 0.0), within=8.0, hold="most"),)
     for handles in (0, 1, 2):
         found = designed(quads, replace(WISH, handles=handles, locks=locks, optimise=OptimiseConfig(tips=1, flips=200)))
         assert certified(found.duotone).holds

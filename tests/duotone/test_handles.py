@@ -77,7 +77,7 @@ def test_locked_tiles_stay() -> None:
 
 
 def test_too_many_locks_are_an_error() -> None:
-    with pytest.raises(PatternError, match="locked tiles leave yellow with 0 handles, expected 1"):
+    with pytest.raises(PatternError, match="expected 1, but locked tiles keep it at 0"):
         with_handles(EIGHT, yellow=1, seed=1, free=np.zeros(len(EIGHT.joined), dtype=bool))
 
 
