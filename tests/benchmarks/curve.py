@@ -115,7 +115,7 @@ def quick(name: str, grow: Callable[[], Duotone], limit: float) -> bool:
 
 
 def flips() -> bool:
-    """Time flips while all costs count that they change locally, print it, and return whether they were quick enough."""
+    """Time flips while all costs count that they change locally, and return whether they were quick enough."""
     quads = subdivided(geodesic_sphere(frequency=FLIPPED_FREQUENCY), levels=1)
     duotone, every = random_duotone(quads, seed=7), np.ones(len(quads.tiles), dtype=bool)
     costs: list[LocalCost] = [

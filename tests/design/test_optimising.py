@@ -57,7 +57,7 @@ def along_circles(quads: QuadMesh) -> Floats:
 def better(duotone: Duotone, *, least: float = 0.1, across: bool = False, **asked: float) -> Optimised:
     config = OptimiseConfig.model_validate({"flips": 2500, **asked})
     alignments = along_circles(duotone.quads)
-    return optimised(duotone, config, arc=0.5, neck=least, seed=3, alignments=alignments, across=across)
+    return optimised(duotone, config, rings=[0.5], neck=least, seed=3, alignments=alignments, across=across)
 
 
 @pytest.mark.parametrize(("name", "weight", "sign"), BETTER)
@@ -84,11 +84,11 @@ def test_what_was_before_is_measured_without_any_flip() -> None:
 
 
 def test_alignment_is_measured_only_along_directions() -> None:
-    found = optimised(SHAPES["knot"], OptimiseConfig(tips=1, flips=10), arc=0.5, neck=0.1, seed=3)
+    found = optimised(SHAPES["knot"], OptimiseConfig(tips=1, flips=10), rings=[0.5], neck=0.1, seed=3)
     assert sorted(found.objectives) == ["corridor", "evenness", "neck", "tips"]
     half = along_circles(SHAPES["knot"].quads)
     half[: len(half) // 2] = 0.0
-    found = optimised(SHAPES["knot"], OptimiseConfig(tips=1, flips=1), arc=0.5, neck=0.1, seed=3, alignments=half)
+    found = optimised(SHAPES["knot"], OptimiseConfig(tips=1, flips=1), rings=[0.5], neck=0.1, seed=3, alignments=half)
     joined = SHAPES["knot"].joined
     directed = np.where(joined, half[:, 0], half[:, 1])[len(half) // 2 :]
     assert found.objectives["alignment"].before == pytest.approx(directed.mean())
@@ -96,12 +96,12 @@ def test_alignment_is_measured_only_along_directions() -> None:
 
 def test_narrow_necks_are_kept_out_whatever_counts() -> None:
     duotone = SHAPES["knot"]
-    neck = float(np.quantile(coarse_necks(duotone, arc=0.5), 0.3))
+    neck = float(np.quantile(coarse_necks(duotone, rings=[0.5]), 0.3))
     narrow = [
-        np.count_nonzero(coarse_necks(better(duotone, tips=1, least=each).duotone, arc=0.5) < neck)
+        np.count_nonzero(coarse_necks(better(duotone, tips=1, least=each).duotone, rings=[0.5]) < neck)
         for each in (0.01, neck)
     ]
-    necks = NeckGauge.of(duotone.quads, arc=0.5).necks(duotone.quads.points)
+    necks = NeckGauge.of(duotone.quads, rings=[0.5]).necks(duotone.quads.points)
     hopeless = np.count_nonzero(necks.max(axis=1) < neck)
     assert hopeless <= narrow[1] < hopeless + 0.5 * (narrow[0] - hopeless)
 
@@ -118,7 +118,7 @@ def test_time_that_is_up_ends_it_and_is_told() -> None:
 def test_progress_is_told_ten_times() -> None:
     told: list[str] = []
     config = OptimiseConfig(tips=1, flips=200)
-    optimised(SHAPES["sphere"], config, arc=0.5, neck=0.1, seed=3, progress=told.append)
+    optimised(SHAPES["sphere"], config, rings=[0.5], neck=0.1, seed=3, progress=told.append)
     assert told == [f"optimising: {tried} of 200 flips tried" for tried in range(0, 200, 20)]
 
 
@@ -131,7 +131,7 @@ def test_corridors_run_across_where_they_should() -> None:
 def test_locked_tiles_stay() -> None:
     duotone = SHAPES["knot"]
     free = np.random.default_rng(3).random(len(duotone.joined)) < 0.5
-    found = optimised(duotone, OptimiseConfig(tips=1, flips=500), arc=0.5, neck=0.1, seed=3, free=free).duotone
+    found = optimised(duotone, OptimiseConfig(tips=1, flips=500), rings=[0.5], neck=0.1, seed=3, free=free).duotone
     assert np.array_equal(found.joined[~free], duotone.joined[~free])
     assert not np.array_equal(found.joined, duotone.joined)
 
