@@ -17,16 +17,19 @@ from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Check, Report, report_json
 from fabricate.checks.share import share_checks
 from fabricate.config import Config, FileConfig, PatternConfig, SphereConfig, config_sha256, moved_config, resolved_toml
+from fabricate.config.handles_config import handles_of_yellow
 from fabricate.design.area_share import shared_cut, square_arc
 from fabricate.design.curve_wish import CurveWish
 from fabricate.design.designed import designed, grown
 from fabricate.design.field import FieldWish
 from fabricate.duotone.duotone import Duotone
+from fabricate.duotone.handles import checked_handles
 from fabricate.errors import MeshError
 from fabricate.formats.field_source import field_source
 from fabricate.formats.limits import ReadLimits
 from fabricate.formats.reading import read_mesh
 from fabricate.formats.source import source_mesh
+from fabricate.mesh.closed import genus
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.output.curve_svg import write_curve_svg
 from fabricate.output.files import write_whole
@@ -117,11 +120,11 @@ def _sculpture(
     solid, process = config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
     wish, limit = _wish(config, body)
-    curve = _curve_wish(config, field, neck=wish.neck)
+    curve = _curve_wish(config, field, genus=genus(body.mesh), neck=wish.neck)
     own = _in_place(curve, body, wish)
     tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=own), progress=watch.tell, store=store)
     watch.begin("duotone")
-    design = designed(tiling.quads, _in_place(curve, body, wish, tiling))
+    design = designed(tiling.quads, _in_place(curve, body, wish, tiling), progress=watch.tell)
     duotone = design.duotone
     watch.begin("cut")
     surface = _surface(duotone, tiling, config)
@@ -222,7 +225,7 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
     return replace(wish, tile_size=finest.tile_size), (finest.limit,)
 
 
-def _curve_wish(config: Config, field: FieldWish | None, *, neck: float) -> CurveWish:
+def _curve_wish(config: Config, field: FieldWish | None, *, genus: int, neck: float) -> CurveWish:
     pattern = config.pattern
     return CurveWish(
         tree=pattern.tree,
@@ -232,6 +235,8 @@ def _curve_wish(config: Config, field: FieldWish | None, *, neck: float) -> Curv
         neck=neck,
         field=field,
         locks=pattern.locks or (),
+        handles=checked_handles(handles_of_yellow(pattern.handles, genus), genus),
+        optimise=config.optimise,
     )
 
 

@@ -109,7 +109,7 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
     assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm"}
     assert set(report["pattern"]) == {
         *("tiles", "tile_size_mm", "tile_quality", "curves", "regions", "curve_length_mm", "arc"),
-        *("area_share", "handles", "neck_mm", "band_mm", "alignment", "locked"),
+        *("area_share", "handles", "neck_mm", "band_mm", "alignment", "locked", "objectives", "notes"),
     }
     assert set(report["pattern"]["tile_quality"]) == {
         *("aspect_median", "aspect_p95", "aspect_max", "size_ratio", "warnings"),
@@ -210,6 +210,19 @@ def status(*arguments: str) -> int:
     with pytest.raises(SystemExit) as caught:
         main(arguments)
     return int(caught.value.code or 0)
+
+
+def test_handles_move_to_yellow_and_objectives_get_better(config: Path, tmp_path: Path) -> None:
+    asked = ("pattern.handles={yellow=1}", "optimise.tips=1", "optimise.flips=400", "optimise.seconds=1000")
+    report = run(config, tmp_path, *asked)
+    assert report.ok
+    pattern = json.loads((tmp_path / "small" / "report.json").read_text())["pattern"]
+    assert pattern["handles"] == {"yellow": 1, "blue": 0}
+    assert {name: part.genus for name, part in report.parts.items()} == {"yellow": 2, "blue": 0}
+    assert set(pattern["objectives"]) == {"neck", "evenness", "tips", "corridor"}
+    assert pattern["objectives"]["tips"]["after"] < pattern["objectives"]["tips"]["before"]
+    assert report.notes == ()
+    assert run(config, tmp_path / "short", *asked[:2], "optimise.seconds=1e-9").notes[0].startswith("optimising ended")
 
 
 def test_check_passes_what_run_made(copy: Path) -> None:
@@ -344,6 +357,10 @@ WRONG = {
     "unknown view": ('shape = "torus"', ['curve.views=["above"]'], "front"),
     "no thickness": ('shape = "torus"', ["solid.thickness=0mm"], "thickness"),
     "unknown key": ('shape = "torus"\nsizes = "60 mm"', [], "size"),
+    "too many handles": ('shape = "double-torus"', ["pattern.handles={yellow=3}"], "genus 2"),
+    "no such handles": ('shape = "double-torus"', ["pattern.handles=odd"], "even"),
+    "directions missing": ('shape = "torus"', ["optimise.alignment=1"], "direction"),
+    "unknown objective": ('shape = "torus"', ["optimise.tip=1"], "optimise.tips"),
     "unknown shape": ('shape = "tors"', [], "torus"),
     "unknown field": ('shape = "torus"', ["pattern.tree=field", "field.kind=hight"], "height"),
     "no field": ('shape = "torus"', ["pattern.tree=field"], "[field]"),

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+from fabricate.design.optimising import Change
 from fabricate.prepare.tile_quality import TileQuality
 
 Xyz: TypeAlias = tuple[float, float, float]
@@ -119,6 +120,10 @@ class PatternFacts:
         a field of directions.
     locked : mapping of str to int, or None
         Tiles that locks hold in either colour; None without locks.
+    objectives : mapping of str to Change
+        What the curve was optimised for, before and after; empty if it was not. See `fabricate.design.optimising`.
+    notes : tuple of str
+        What a user should know of how the curve was chosen.
     """
 
     tiles: int
@@ -134,6 +139,8 @@ class PatternFacts:
     band_mm: Mapping[str, Spread]
     alignment: float | None = None
     locked: Mapping[str, int] | None = None
+    objectives: Mapping[str, Change] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -70,6 +70,8 @@ def pattern_facts(design: Design, certificate: Certificate, surface: CutSurface)
         band_mm=MappingProxyType(dict(zip(names[1:-1], bands, strict=True))),
         alignment=design.alignment,
         locked=None if locks is None else _locked(locks),
+        objectives=MappingProxyType(dict(design.objectives)),
+        notes=design.notes,
     )
 
 

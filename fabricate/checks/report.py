@@ -66,9 +66,9 @@ class Report:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a user should know of the mesh and its tiles, in sentences."""
+        """What a user should know of the mesh, its tiles and the curve, in sentences."""
         of_mesh = () if self.mesh is None else self.mesh.notes
-        return of_mesh + (() if self.pattern is None else self.pattern.tile_quality.warnings)
+        return of_mesh + (() if self.pattern is None else self.pattern.tile_quality.warnings + self.pattern.notes)
 
 
 def report_json(report: Report) -> str:

@@ -13,6 +13,7 @@ from fabricate.config.field_config import (
 )
 from fabricate.config.loading import load_config
 from fabricate.config.lock_config import LockConfig, SideConfig
+from fabricate.config.optimise_config import OptimiseConfig
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
@@ -43,6 +44,7 @@ __all__ = [
     "ImageConfig",
     "KnotConfig",
     "LockConfig",
+    "OptimiseConfig",
     "PatternConfig",
     "PrepareConfig",
     "ProcessConfig",

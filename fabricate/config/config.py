@@ -8,7 +8,8 @@ from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
 from fabricate.config.curve_config import CurveConfig
-from fabricate.config.field_config import AttributeConfig, FieldSection
+from fabricate.config.field_config import AttributeConfig, DirectionConfig, FieldSection
+from fabricate.config.optimise_config import OptimiseConfig
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig, with_process_defaults
@@ -32,7 +33,9 @@ class Config(BaseModel):
     curve: CurveConfig = CurveConfig()
     """What else is made of the curve."""
     field: FieldSection | None = None
-    """What a tree = "field" follows."""
+    """What a tree = "field" follows, and the alignment that is optimised."""
+    optimise: OptimiseConfig = OptimiseConfig()
+    """What the curve is made better for."""
     solid: SolidConfig = SolidConfig()
     """The parts."""
     process: ProcessConfig = ProcessConfig()
@@ -47,7 +50,9 @@ class Config(BaseModel):
     def _field_is_followed(self) -> Self:
         if self.pattern.tree == "field" and self.field is None:
             raise wrong_value("pattern.tree", 'expected a section [field] beside tree = "field", found none')
-        if self.field is not None and self.pattern.tree != "field":
+        if self.optimise.alignment and not isinstance(self.field, DirectionConfig):
+            raise wrong_value("optimise.alignment", 'expected a section [field] of kind = "direction", found none')
+        if self.field is not None and self.pattern.tree != "field" and not self.optimise.alignment:
             raise wrong_value("field", 'nothing follows this field: say tree = "field" in [pattern], or remove [field]')
         if isinstance(self.field, AttributeConfig) and not isinstance(self.source, FileConfig):
             raise wrong_value("field.kind", 'kind = "attribute" reads values of a PLY file, but [source] has no path')

@@ -9,6 +9,7 @@ from typing import NamedTuple, get_args
 
 from fabricate.config.curve_config import CurveConfig
 from fabricate.config.field_config import FIELDS, FieldConfig
+from fabricate.config.optimise_config import OptimiseConfig
 from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
@@ -23,6 +24,7 @@ SECTIONS: Mapping[str, tuple[type[Section], ...]] = MappingProxyType(
         "pattern": (PatternConfig,),
         "curve": (CurveConfig,),
         "field": get_args(FieldConfig),
+        "optimise": (OptimiseConfig,),
         "solid": (SolidConfig,),
         "process": (ProcessConfig,),
     }

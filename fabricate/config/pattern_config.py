@@ -8,6 +8,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
+from fabricate.config.handles_config import Handles, HandlesConfig
 from fabricate.config.length import Length
 from fabricate.config.lock_config import LockConfig
 from fabricate.config.point import Point, as_tuple
@@ -42,6 +43,8 @@ class PatternConfig(Section):
     """Several such places, for bands between yellow and blue along the whole curve; instead of arc."""
     area_share: Annotated[float, Field(gt=0, lt=1)] | None = Field(default=None, examples=[0.6])
     """Yellow's share of the surface, met within 0.001 by the arc position that gives it; instead of arc."""
+    handles: Handles = HandlesConfig()
+    """Handles of the surface that yellow gets, such as { yellow = 1 }; even: half of them, and blue the odd one."""
     locks: Annotated[tuple[LockConfig, ...], BeforeValidator(as_tuple), Takes("tables [[pattern.locks]]")] | None = (
         Field(default=None, examples=[[{"joined": "yellow", "tiles": [4, 5]}]])
     )

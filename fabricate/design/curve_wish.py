@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from fabricate.config.lock_config import LockConfig
+from fabricate.config.optimise_config import OptimiseConfig
 from fabricate.design.field import FieldWish
 from fabricate.duotone.spanning_tree import Tree
 
@@ -30,6 +31,10 @@ class CurveWish:
         What a tree of that name follows, and what alignment is measured with.
     locks : tuple of LockConfig
         Tiles that are joined in one colour.
+    handles : int
+        How many handles of the surface are yellow.
+    optimise : OptimiseConfig or None
+        What the curve is made better for, and for how long.
     """
 
     tree: Tree | Literal["field"]
@@ -39,3 +44,5 @@ class CurveWish:
     root: tuple[float, float, float] | None = None
     field: FieldWish | None = None
     locks: tuple[LockConfig, ...] = ()
+    handles: int = 0
+    optimise: OptimiseConfig | None = None

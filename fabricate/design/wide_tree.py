@@ -38,11 +38,11 @@ def wide_duotone(
     PatternError
         If the positions of the arcs are out of range or do not increase, or no tree keeps to the locks.
     """
-    reluctance = _reluctance(quads, rings=rings, neck=neck) if tree == "random" else None
+    reluctance = neck_reluctance(quads, rings=rings, neck=neck) if tree == "random" else None
     return grown_duotone(quads, tree=tree, seed=seed, root=root, reluctance=reluctance, locks=locks)
 
 
-def _reluctance(quads: QuadMesh, *, rings: Sequence[float], neck: float) -> Indices:
+def neck_reluctance(quads: QuadMesh, *, rings: Sequence[float], neck: float) -> Indices:
     """Return by how many steps each tile's neck is narrower yellow-joined than blue-joined, (t,) int."""
     necks = NeckGauge.of(quads, rings=rings).necks(quads.points)
     reached = np.floor(STEPS * np.minimum(necks / neck, 1.0)).astype(np.int64)

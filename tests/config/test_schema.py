@@ -15,5 +15,6 @@ def test_the_schema_shows_configs_as_they_are_written() -> None:
     assert (pattern["levels"]["type"], pattern["levels"]["maximum"]) == ("integer", 12)
     assert "default" not in pattern["levels"]
     assert "null" not in json.dumps(schema)
-    assert {"source", "prepare", "pattern", "curve", "field", "solid", "process"} == set(schema["properties"])
+    sections = {"source", "prepare", "pattern", "curve", "field", "optimise", "solid", "process"}
+    assert sections == set(schema["properties"])
     assert all(not each.get("additionalProperties", True) for each in schema["$defs"].values())

@@ -10,15 +10,17 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import shortest_path
 
-from fabricate.config import DirectionConfig, HeightConfig, LockConfig, SideConfig
+from fabricate.config import DirectionConfig, HeightConfig, LockConfig, OptimiseConfig, SideConfig
 from fabricate.design.curve_wish import CurveWish
 from fabricate.design.designed import designed, grown
 from fabricate.design.field import FieldWish
+from fabricate.design.tips import tip_count
 from fabricate.duotone.certificate import certified
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.duotone.spanning_tree import Tree
 from fabricate.errors import PatternError
+from fabricate.mesh.pierced import double_torus
 from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.sizing import sized, tiled
@@ -103,3 +105,51 @@ def test_ties_of_a_field_are_drawn_from_the_seed() -> None:
 def test_a_field_is_missed() -> None:
     with pytest.raises(PatternError, match="needs a field to follow, found none"):
         designed(ball(), replace(WISH, tree="field"))
+
+
+def figure_eight() -> QuadMesh:
+    return tiled(sized(double_torus(), size=60), tile_size=5)
+
+
+def test_yellow_gets_the_handles_asked_for_and_locked_tiles_stay() -> None:
+    quads = figure_eight()
+    locks = (LockConfig(joined="blue", near=(20.0, 0.0, 0.0), within=8.0, hold="most"),)
+    for handles in (0, 1, 2):
+        found = designed(quads, replace(WISH, handles=handles, locks=locks, optimise=OptimiseConfig(tips=1, flips=200)))
+        assert certified(found.duotone).holds
+        assert certified(found.duotone).yellow.handles == handles
+        assert found.locks is not None
+        assert found.locks.blue.any()
+        assert not found.duotone.joined[found.locks.blue].any()
+        assert found.duotone.joined[found.locks.yellow].all()
+
+
+def test_handles_beyond_the_genus_are_refused() -> None:
+    with pytest.raises(PatternError, match="genus 2"):
+        designed(figure_eight(), replace(WISH, handles=3))
+
+
+def test_what_counts_gets_better_and_is_reported() -> None:
+    quads = ball()
+    plain = designed(quads, WISH)
+    assert (dict(plain.objectives), plain.notes) == ({}, ())
+    told: list[str] = []
+    found = designed(quads, replace(WISH, optimise=OptimiseConfig(tips=1, flips=500)), progress=told.append)
+    assert found.objectives["tips"].before == tip_count(plain.duotone)
+    assert found.objectives["tips"].after == tip_count(found.duotone) < tip_count(plain.duotone)
+    assert len(told) == 10
+
+
+@pytest.mark.parametrize("corridors", ["along", "across"])
+def test_alignment_follows_the_field(corridors: Literal["along", "across"]) -> None:
+    field = FieldWish(DirectionConfig(kind="direction", lines="circles", corridors=corridors))
+    wish = replace(WISH, field=field, optimise=OptimiseConfig(alignment=1, flips=2000))
+    change = designed(ball(), wish).objectives["alignment"]
+    assert change.after - change.before > 0.1 if corridors == "along" else change.before - change.after > 0.1
+    tree = designed(ball(), replace(WISH, tree="field", field=field)).alignment
+    assert change.after == pytest.approx(tree, abs=0.005)
+
+
+def test_time_that_is_up_is_noted() -> None:
+    found = designed(ball(), replace(WISH, optimise=OptimiseConfig(tips=1, seconds=1e-6)))
+    assert found.notes[0].startswith("optimising ended after 0 of 20000 flips")
