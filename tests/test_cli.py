@@ -329,6 +329,7 @@ def test_schema_prints_json(call: Call) -> None:
         "pattern",
         "curve",
         "field",
+        "optimise",
         "solid",
         "process",
     }

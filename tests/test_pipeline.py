@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from fabricate.checks.report import Report
 from fabricate.cli import main
 from fabricate.config import load_config
 from fabricate.design.curve_wish import CurveWish
-from fabricate.design.designed import designed
+from fabricate.design.designed import Design, designed
 from fabricate.design.field import field_weights
 from fabricate.duotone.quad_mesh import QuadMesh
 from fabricate.errors import OutputError
@@ -425,7 +426,12 @@ def test_a_field_of_the_file_and_locks_make_a_pair(tmp_path: Path, monkeypatch: 
     path = tmp_path / "file.toml"
     path.write_text(source.replace("seed = 7", f'seed = 7\ntree = "field"\n{locks}') + field)
     asked: list[tuple[QuadMesh, CurveWish]] = []
-    monkeypatch.setattr(pipeline, "designed", lambda *asking: asked.append(asking) or designed(*asking))
+
+    def listening(quads: QuadMesh, wish: CurveWish, *, progress: Callable[[str], None]) -> Design:
+        asked.append((quads, wish))
+        return designed(quads, wish, progress=progress)
+
+    monkeypatch.setattr(pipeline, "designed", listening)
     report = run(path, tmp_path / "out")
     assert not failed(report, with_printability=False)
     assert report.pattern is not None
