@@ -7,6 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BeforeValidator, Field
 
 from fabricate.config.length import Length
+from fabricate.config.point import as_tuple
 from fabricate.config.section import Section
 from fabricate.config.takes import Takes
 
@@ -14,19 +15,14 @@ View: TypeAlias = Literal["front", "back", "left", "right", "top", "bottom"]
 """A side from which the sculpture is seen; z is up, and the front looks along y."""
 
 
-def _as_tuple(value: object) -> object:
-    """Return a list, as files have it, as a tuple."""
-    return tuple(value) if isinstance(value, list) else value
-
-
 class CurveConfig(Section):
     """The curve itself: a wire along it, and drawings of it."""
 
     wire: Annotated[Length, Field(ge=0.1)] | None = Field(default=None, examples=["1 mm"])
-    """Diameter of a wire along the curve, made as wire.stl; none unless it is given."""
+    """Diameter of a wire along the curve, or yellow's of several, made as wire.stl; none unless it is given."""
     views: Annotated[
         tuple[View, ...],
-        BeforeValidator(_as_tuple),
+        BeforeValidator(as_tuple),
         Takes('a list of sides: "front", "back", "left", "right", "top" or "bottom"'),
     ] = ()
     """Sides from which the curve is drawn in true size, as curve-front.svg and so on."""
