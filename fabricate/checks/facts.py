@@ -33,12 +33,12 @@ class Gap:
 
 @dataclass(frozen=True)
 class Play:
-    """How far one part can move between its stops, mm, to first order; inf where nothing stops it.
+    """How far one part can move from its seat, mm, to first order; inf where nothing stops it.
 
     Attributes
     ----------
     x, y, z : float
-        Way from one stop to the opposite one along each axis.
+        Way from the seat, where it was modelled, to the farther of the two stops along each axis.
     rx, ry, rz : float
         The same for turning about each axis, as the way of a point as far from the pivot as the part's
         farthest one.
@@ -50,6 +50,22 @@ class Play:
     rx: float
     ry: float
     rz: float
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A few contacts that between them stop every motion of the first part of a pair.
+
+    Attributes
+    ----------
+    points : tuple of (x, y, z)
+        On the first part, mm.
+    normals : tuple of (x, y, z)
+        Unit vectors from there towards the second part.
+    """
+
+    points: tuple[Xyz, ...]
+    normals: tuple[Xyz, ...]
 
 
 @dataclass(frozen=True)
@@ -171,15 +187,18 @@ class PairFacts:
     overlap_mm3 : float or None
         Volume that they have in common.
     verdict : {"captive", "separable", "fused"} or None
-        See `fabricate.checks.mobility`; None as well where other parts lie between them.
+        See `fabricate.checks.holding`; None as well where other parts lie between them.
     play_mm : Play or None
         How far the first part moves in the second; None for fused parts too.
+    witness : Witness or None
+        What proves that captive parts are.
     """
 
     gap_mm: Gap | None
     overlap_mm3: float | None
     verdict: Verdict | None
     play_mm: Play | None
+    witness: Witness | None
 
 
 @dataclass(frozen=True)
@@ -195,10 +214,12 @@ class FitFacts:
     overlap_mm3 : float or None
         Volume that parts have in common.
     verdict : {"captive", "separable", "fused"} or None
-        See `fabricate.checks.mobility`. Of several parts, "captive" where each pair of neighbours is, which is enough
+        See `fabricate.checks.holding`. Of several parts, "captive" where each pair of neighbours is, which is enough
         for all of them to be caught in each other.
     play_mm : Play or None
         How far the first of two parts moves in the second; None for fused parts, and for more than two.
+    witness : Witness or None
+        What proves that two parts are captive; of more than two, each pair has its own.
     pairs : mapping of str to PairFacts
         The same of each pair by the parts' names, such as "yellow-blue".
     """
@@ -208,4 +229,5 @@ class FitFacts:
     overlap_mm3: float | None
     verdict: Verdict | None
     play_mm: Play | None
+    witness: Witness | None
     pairs: Mapping[str, PairFacts]

@@ -13,13 +13,17 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from fabricate.checks.check import Check
+from fabricate.checks.contacts import REACH
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Gap, PairFacts, Verdict
 from fabricate.checks.fit import gap_check, overlap_check, whole_check
 from fabricate.checks.gap import Spacing, smallest_gap
-from fabricate.checks.mobility import REACH, Mobility, mobility, mobility_check
+from fabricate.checks.holding import Holding, holding, holding_check
 from fabricate.solid.part import Part
 from fabricate.triangles.search_tree import SearchTree
+
+UNKNOWN = PairFacts(gap_mm=None, overlap_mm3=None, verdict=None, play_mm=None, witness=None)
+"""Facts of two parts that could not be measured."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +79,7 @@ def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expect
         overlap_mm3=sum(pair.overlap_mm3 or 0.0 for pair in measured) if measured else None,
         verdict=_verdict(len(parts), list(pairs.values())),
         play_mm=measured[0].play_mm if len(parts) == 2 and measured else None,
+        witness=measured[0].witness if len(parts) == 2 and measured else None,
         pairs=MappingProxyType({name: pair.facts for name, pair in pairs.items()}),
     )
     return Fit(facts, (*checks, _whole(parts, expectations)))
@@ -87,14 +92,20 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
     gap = smallest_gap(spacing, first.manifold, second.manifold, clearance=clearance)
     smaller = min(first.manifold.volume(), second.manifold.volume())
     apart = not only_pair and clearance is not None and gap.min > REACH * clearance
-    found = None if apart else _found_mobility(spacing, gap, clearance)
+    found = None if apart else _holding(spacing, first, second, gap, clearance)
     checks = (
         overlap_check(f"{prefix}.overlap", first.part, second.part, common, smaller_volume=smaller),
         gap_check(f"{prefix}.gap", first.part, second.part, gap, clearance=clearance),
         _moving(f"{prefix}.mobility", first.part, second.part, found, expectations, apart=apart),
     )
-    verdict, play = found or (None, None)
-    return _Pair(PairFacts(gap_mm=gap, overlap_mm3=common.volume(), verdict=verdict, play_mm=play), checks)
+    facts = PairFacts(
+        gap_mm=gap,
+        overlap_mm3=common.volume(),
+        verdict=found.verdict if found else None,
+        play_mm=found.play if found else None,
+        witness=found.witness_facts if found else None,
+    )
+    return _Pair(facts, checks)
 
 
 def _unmeasured(prefix: str, first: Part, second: Part, *, spoiler: Part) -> _Pair:
@@ -102,21 +113,21 @@ def _unmeasured(prefix: str, first: Part, second: Part, *, spoiler: Part) -> _Pa
     checks = (
         Check(f"{prefix}.{what}", ok=False, skipped=True, message=message) for what in ("overlap", "gap", "mobility")
     )
-    return _Pair(PairFacts(gap_mm=None, overlap_mm3=None, verdict=None, play_mm=None), tuple(checks))
+    return _Pair(UNKNOWN, tuple(checks))
 
 
-def _found_mobility(spacing: Spacing, gap: Gap, clearance: float | None) -> Mobility | None:
-    """Return the mobility of neighbouring parts, or None where it can't be told."""
+def _holding(spacing: Spacing, first: Solid, second: Solid, gap: Gap, clearance: float | None) -> Holding | None:
+    """Return how neighbouring parts hold each other, or None where the clearance is not known."""
     if clearance == 0.0 or gap.min == 0.0:
-        return Mobility("fused", None)
-    return None if clearance is None else mobility(spacing, clearance=clearance)
+        return Holding("fused")
+    return None if clearance is None else holding(spacing, first.manifold, second.manifold, clearance=clearance)
 
 
 def _moving(
-    code: str, first: Part, second: Part, found: Mobility | None, expectations: Expectations, *, apart: bool
+    code: str, first: Part, second: Part, found: Holding | None, expectations: Expectations, *, apart: bool
 ) -> Check:
     if found is not None:
-        return mobility_check(code, first, second, found, expected=expectations.expected_verdict)
+        return holding_check(code, first, second, found, expected=expectations.expected_verdict)
     reason = "other parts lie between them" if apart else "the clearance is not known"
     message = f"how {first.name} and {second.name} move was not judged, because {reason}"
     return Check(code, ok=False, skipped=True, message=message)

@@ -131,7 +131,8 @@ def test_facts_of_a_good_pair() -> None:
     assert found.fit.overlap_mm3 == 0.0
     assert found.fit.verdict == "captive"
     assert found.fit.play_mm is not None
-    assert found.fit.play_mm.z == pytest.approx(2 * GAP, rel=1e-3)
+    assert found.fit.play_mm.z == pytest.approx(GAP, rel=1e-3)
+    assert found.fit.witness is not None
 
 
 @pytest.mark.parametrize(
