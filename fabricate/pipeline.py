@@ -24,7 +24,8 @@ from fabricate.formats.source import source_mesh
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
-from fabricate.output.sculpture import write_sculpture
+from fabricate.output.sculpture import write_parts, write_pictures
+from fabricate.picture.witness_marks import witness_marks
 from fabricate.prepare.density import finest_tile
 from fabricate.prepare.inspection import Inspection, inspected
 from fabricate.prepare.prepared import Prepared, prepared
@@ -102,7 +103,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
     with complete_folder(out / name) as folder:
         watch.begin("files")
-        paths = write_sculpture(folder, made.parts, list(surface.points[surface.curves]), name=name)
+        paths = write_parts(folder, made.parts, list(surface.points[surface.curves]), name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
         wanted = expectations(
@@ -114,6 +115,8 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
             process=process,
         )
         judged = judged_parts([read_part(path) for path in paths], wanted)
+        watch.begin("pictures")
+        write_pictures(folder, made.parts, marks=witness_marks(made.parts, judged.fit.pairs if judged.fit else {}))
         report = Report(
             name=name,
             config_sha256=config_sha256(config),
