@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fabricate.arrays import Floats, Indices
+from fabricate.arrays import Floats, Indices, Mask
 from fabricate.checks.gap import Spacing
 from fabricate.triangles.normals import area_vectors, unit
 from fabricate.triangles.search_tree import SearchTree
@@ -56,6 +56,20 @@ def contacts(spacing: Spacing, *, clearance: float) -> Contacts:
     )
 
 
+def facing_triangles(own: SearchTree, other: SearchTree, distances: Floats, *, clearance: float) -> Mask:
+    """Tell of each triangle of a part, (m,) bool, whether it faces the other part about a clearance away.
+
+    `distances`, (n,), are those of the part's points from the other, mm. With a clearance of 0 such triangles are those
+    whose points all lie on the other part.
+    """
+    facing: Mask = (distances[own.triangles] <= CORNER_REACH * clearance).all(axis=1)
+    if clearance > 0.0:
+        near = np.flatnonzero(facing)
+        middles = own.points[own.triangles[near]].mean(axis=1)
+        facing[near] = _face_to_face(own, other, middles, near, clearance)[0]
+    return facing
+
+
 def joint_pivot(met: Contacts, centroid: Floats) -> Floats:
     """Return the point with the least sum of squared distances from the lines along the contacts' normals.
 
@@ -74,6 +88,15 @@ def _facing(own: SearchTree, other: SearchTree, distances: Floats, clearance: fl
     triangles = own.triangles
     near = np.flatnonzero((distances[triangles] <= CORNER_REACH * clearance).all(axis=1))
     points, triangle = _samples(own, near)
+    facing, gaps = _face_to_face(own, other, points, triangle, clearance)
+    normals = _normals(own, triangle[facing])
+    return Contacts(points[facing], normals, gaps[facing])
+
+
+def _face_to_face(
+    own: SearchTree, other: SearchTree, points: Floats, triangle: Indices, clearance: float
+) -> tuple[Mask, Floats]:
+    """Return which places on triangles of `own` face a wall of `other`, and how far it is along the normal, mm."""
     found = other.nearest(points)
     normals, opposite = _normals(own, triangle), _normals(other, found.triangle)
     way = found.point - points
@@ -83,7 +106,7 @@ def _facing(own: SearchTree, other: SearchTree, distances: Floats, clearance: fl
         & (gaps >= FACING * found.distance)
         & (-np.einsum("ij,ij->i", way, opposite) >= FACING * found.distance)
     )
-    return Contacts(points[facing], normals[facing], gaps[facing])
+    return facing, gaps
 
 
 def _normals(tree: SearchTree, triangles: Indices) -> Floats:

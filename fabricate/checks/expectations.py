@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import NamedTuple
 
+from fabricate.arrays import Floats
 from fabricate.checks.facts import Verdict, Xyz
 from fabricate.process import Process
 from fabricate.solid.part import Part
@@ -57,6 +58,8 @@ class Expectations:
         The narrowest of a multitone; a duotone has none.
     spaces : Spaces or None
         What the parts leave free, and what they add up to with it.
+    middles : mapping of str to (k, 3) float
+        Places on the mid-line of the joint between two parts, by their names, such as "yellow-blue"; mm.
     verdict : {"captive", "separable", "fused"} or None
         Whether neighbouring parts come apart. Left at None it is "captive", or "fused" where the clearance is 0.
     """
@@ -67,10 +70,12 @@ class Expectations:
     neck: Neck | None = None
     band: Band | None = None
     spaces: Spaces | None = None
+    middles: Mapping[str, Floats] = field(default_factory=dict)
     verdict: Verdict | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "genus", MappingProxyType(dict(self.genus)))
+        object.__setattr__(self, "middles", MappingProxyType(dict(self.middles)))
 
     @property
     def expected_verdict(self) -> Verdict:

@@ -25,10 +25,35 @@ class Spread:
 
 @dataclass(frozen=True)
 class Gap:
-    """The smallest distance between parts, mm, and where it is; no place where they touch on purpose."""
+    """The distance between parts, mm.
+
+    Attributes
+    ----------
+    min : float
+        The smallest one.
+    at : (x, y, z) or None
+        Where it is; no place where parts touch on purpose.
+    queried : float or None
+        The smallest one that distance queries found on their own; None where parts touch or overlap.
+    max : float or None
+        The largest one along the joint's mid-line; None where that is not known.
+    max_at : (x, y, z) or None
+        Where that is.
+    """
 
     min: float
     at: Xyz | None
+    queried: float | None = None
+    max: float | None = None
+    max_at: Xyz | None = None
+
+
+@dataclass(frozen=True)
+class Narrowest:
+    """The smallest of many widths, mm, and where it is."""
+
+    min: float
+    at: Xyz
 
 
 @dataclass(frozen=True)
@@ -163,6 +188,8 @@ class PartFacts:
         Pairs of triangles that cross.
     wall_mm : Spread or None
         Wall thickness; the median is weighted by area. None where no two faces are opposite each other.
+    neck_mm : Narrowest or None
+        The narrowest place between two walls that face other parts. None where there is none, or no other part.
     """
 
     file: str
@@ -174,6 +201,7 @@ class PartFacts:
     watertight: bool
     self_intersections: int
     wall_mm: Spread | None
+    neck_mm: Narrowest | None
 
 
 @dataclass(frozen=True)

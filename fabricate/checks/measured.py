@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
@@ -95,6 +96,12 @@ def expectations(
         neck=Neck(*_narrowest(tile_necks(surface))),
         band=_narrowest_band(surface),
         spaces=Spaces(gap, shell),
+        middles={
+            f"{first}-{second}": solids.middles(curve, region)
+            for region, (curve, (first, second)) in enumerate(
+                zip(surface.curves, pairwise(region_names(len(surface.curves) + 1)), strict=True)
+            )
+        },
     )
 
 

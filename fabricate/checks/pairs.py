@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import combinations
 from types import MappingProxyType
 
@@ -12,12 +12,13 @@ from manifold3d import Manifold
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from fabricate.arrays import Mask
 from fabricate.checks.check import Check
-from fabricate.checks.contacts import REACH
+from fabricate.checks.contacts import REACH, facing_triangles
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Gap, PairFacts, Verdict
-from fabricate.checks.fit import gap_check, overlap_check, whole_check
-from fabricate.checks.gap import Spacing, smallest_gap
+from fabricate.checks.fit import gap_check, overlap_check, whole_check, widest_gap_check
+from fabricate.checks.gap import Spacing, smallest_gap, widest_gap
 from fabricate.checks.holding import Holding, holding, holding_check
 from fabricate.solid.part import Part
 from fabricate.triangles.search_tree import SearchTree
@@ -34,18 +35,14 @@ class Solid:
     manifold: Manifold
     tree: SearchTree
 
-    @classmethod
-    def of(cls, part: Part, manifold: Manifold) -> Solid:
-        """Build the search tree of a part that Manifold has taken."""
-        return cls(part, manifold, SearchTree.of(part.points, part.triangles))
-
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """How parts go together, and the checks of it."""
+    """How parts go together, the checks of it, and which triangles of each part, by name, face another one."""
 
     facts: FitFacts
     checks: tuple[Check, ...]
+    joints: Mapping[str, Mask]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +51,7 @@ class _Pair:
 
     facts: PairFacts
     checks: tuple[Check, ...]
+    joints: tuple[tuple[str, Mask], ...] = ()
 
     @property
     def measured(self) -> bool:
@@ -82,7 +80,7 @@ def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expect
         witness=measured[0].witness if len(parts) == 2 and measured else None,
         pairs=MappingProxyType({name: pair.facts for name, pair in pairs.items()}),
     )
-    return Fit(facts, (*checks, _whole(parts, expectations)))
+    return Fit(facts, (*checks, _whole(parts, expectations)), _joints(pairs.values()))
 
 
 def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, *, only_pair: bool) -> _Pair:
@@ -90,12 +88,16 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
     common = first.manifold ^ second.manifold
     spacing = Spacing.between(first.tree, second.tree)
     gap = smallest_gap(spacing, first.manifold, second.manifold, clearance=clearance)
+    middles = expectations.middles.get(f"{first.part.name}-{second.part.name}")
+    widest = None if middles is None else widest_gap(spacing, middles)
+    gap = gap if widest is None else replace(gap, max=widest[0], max_at=widest[1])
     smaller = min(first.manifold.volume(), second.manifold.volume())
     apart = not only_pair and clearance is not None and gap.min > REACH * clearance
     found = None if apart else _holding(spacing, first, second, gap, clearance)
     checks = (
         overlap_check(f"{prefix}.overlap", first.part, second.part, common, smaller_volume=smaller),
         gap_check(f"{prefix}.gap", first.part, second.part, gap, clearance=clearance),
+        widest_gap_check(f"{prefix}.gap_max", first.part, second.part, gap, clearance=clearance),
         _moving(f"{prefix}.mobility", first.part, second.part, found, expectations, apart=apart),
     )
     facts = PairFacts(
@@ -105,13 +107,31 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
         play_mm=found.play if found else None,
         witness=found.witness_facts if found else None,
     )
-    return _Pair(facts, checks)
+    return _Pair(facts, checks, () if clearance is None else _facing(first, second, spacing, clearance))
+
+
+def _facing(first: Solid, second: Solid, spacing: Spacing, clearance: float) -> tuple[tuple[str, Mask], ...]:
+    """Return which triangles of either part face the other, by its name."""
+    one, other, to_second, to_first = spacing.first, spacing.second, spacing.to_second, spacing.to_first
+    return (
+        (first.part.name, facing_triangles(one, other, to_second, clearance=clearance)),
+        (second.part.name, facing_triangles(other, one, to_first, clearance=clearance)),
+    )
+
+
+def _joints(pairs: Iterable[_Pair]) -> Mapping[str, Mask]:
+    """Return which triangles of each part face any other one."""
+    joints: dict[str, Mask] = {}
+    for name, facing in (each for pair in pairs for each in pair.joints):
+        joints[name] = joints[name] | facing if name in joints else facing
+    return MappingProxyType(joints)
 
 
 def _unmeasured(prefix: str, first: Part, second: Part, *, spoiler: Part) -> _Pair:
     message = f"{first.name} and {second.name} were not measured, because {spoiler.name} is no solid"
     checks = (
-        Check(f"{prefix}.{what}", ok=False, skipped=True, message=message) for what in ("overlap", "gap", "mobility")
+        Check(f"{prefix}.{what}", ok=False, skipped=True, message=message)
+        for what in ("overlap", "gap", "gap_max", "mobility")
     )
     return _Pair(UNKNOWN, tuple(checks))
 
