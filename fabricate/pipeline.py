@@ -10,9 +10,10 @@ from pathlib import Path
 from time import perf_counter
 
 from fabricate.checks.judge import judged_parts, read_part
-from fabricate.checks.measured import expectations, mesh_facts, pattern_facts
+from fabricate.checks.measured import chords, expectations, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Report, report_json
+from fabricate.checks.shop import most_polygons
 from fabricate.config import Config, FileConfig, SphereConfig, config_sha256, moved_config, resolved_toml
 from fabricate.design.curve_wish import CurveWish
 from fabricate.design.designed import designed, grown
@@ -32,6 +33,7 @@ from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES
 from fabricate.solid.detailed import detailed_cut
+from fabricate.solid.polygon_budget import affordable
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
@@ -97,7 +99,13 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     watch.begin("duotone")
     duotone = designed(tiling.quads, curve).duotone
     watch.begin("cut")
-    surface = _surface(duotone, tiling, config)
+    fitting = affordable(
+        partial(_surface, duotone, tiling, config),
+        tolerance=solid.tolerance,
+        core=solid.core,
+        budget=None if config.process.shop is None else most_polygons(config.process.shop),
+    )
+    surface, coarser = fitting.surface, fitting.tolerance > solid.tolerance
     certificate = cut_certificate(surface)
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
@@ -113,6 +121,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
             clearance=solid.clearance,
             core=solid.core,
             process=process,
+            shop=config.process.shop,
         )
         judged = judged_parts([read_part(path) for path in paths], wanted)
         watch.begin("pictures")
@@ -121,7 +130,12 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
             name=name,
             config_sha256=config_sha256(config),
             versions=_versions(),
-            mesh=mesh_facts(body, replace(tiling, notes=limit + tiling.notes), surface),
+            mesh=mesh_facts(
+                body,
+                replace(tiling, notes=limit + tiling.notes),
+                surface,
+                chords(duotone, surface, asked=solid.tolerance) if coarser else None,
+            ),
             pattern=pattern_facts(duotone, certificate, surface),
             parts=judged.parts,
             fit=judged.fit,
@@ -192,9 +206,9 @@ def _curve_wish(config: Config, *, neck: float) -> CurveWish:
     return CurveWish(tree=pattern.tree, seed=pattern.seed, root=pattern.root, rings=pattern.positions, neck=neck)
 
 
-def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:
-    """Return the cut surface, with the detail of the input where new cells were made for it."""
-    rings, tolerance, clearance = config.pattern.positions, config.solid.tolerance, config.solid.clearance
+def _surface(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float) -> CutSurface:
+    """Return the surface cut with a tolerance, mm, with the input's detail where new cells were made for it."""
+    rings, clearance = config.pattern.positions, config.solid.clearance
     if tiling.surface is None or config.prepare.detail == "smooth":
         return fitted_cut(duotone, rings=rings, tolerance=tolerance, clearance=clearance)
     return detailed_cut(duotone, tiling.surface, rings=rings, tolerance=tolerance, clearance=clearance)

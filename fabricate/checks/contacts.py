@@ -62,7 +62,7 @@ def facing_triangles(own: SearchTree, other: SearchTree, distances: Floats, *, c
     `distances`, (n,), are those of the part's points from the other, mm. With a clearance of 0 such triangles are those
     whose points all lie on the other part.
     """
-    facing: Mask = (distances[own.triangles] <= CORNER_REACH * clearance).all(axis=1)
+    facing: Mask = np.all(distances[own.triangles] <= CORNER_REACH * clearance, axis=1)
     if clearance > 0.0:
         near = np.flatnonzero(facing)
         middles = own.points[own.triangles[near]].mean(axis=1)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from fabricate.arrays import Floats
 from fabricate.checks.facts import Verdict, Xyz
+from fabricate.config import ShopConfig
 from fabricate.process import Process
 from fabricate.solid.part import Part
 
@@ -52,6 +53,8 @@ class Expectations:
         Handles of each part, by name; a part that is not in it has no genus expected.
     process : Process or None
         How they will be printed.
+    shop : ShopConfig or None
+        What the print shop accepts.
     neck : Neck or None
         The pattern's narrowest.
     band : Band or None
@@ -67,6 +70,7 @@ class Expectations:
     clearance: float | None = None
     genus: Mapping[str, int] = field(default_factory=dict)
     process: Process | None = None
+    shop: ShopConfig | None = None
     neck: Neck | None = None
     band: Band | None = None
     spaces: Spaces | None = None

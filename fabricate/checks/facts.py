@@ -104,6 +104,15 @@ class Distance:
 
 
 @dataclass(frozen=True)
+class Chords:
+    """The chord error of triangles, mm: what was asked for, what 99 % of the edges keep, and the largest."""
+
+    asked: float
+    p99: float
+    max: float
+
+
+@dataclass(frozen=True)
 class MeshFacts:
     """The closed surface that is divided.
 
@@ -117,6 +126,8 @@ class MeshFacts:
         How often each repair was made.
     notes : tuple of str
         What a user should know of repair and cells.
+    chord_mm : Chords or None
+        How far the triangles are from the smooth surface, where they are coarser than was asked for.
     distance_mm : Distance or None
         From the input to the finished outside, where new cells were made for it.
     """
@@ -127,6 +138,7 @@ class MeshFacts:
     size_mm: Xyz
     repairs: Mapping[str, int]
     notes: tuple[str, ...]
+    chord_mm: Chords | None
     distance_mm: Distance | None
 
 

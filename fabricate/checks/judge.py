@@ -22,9 +22,14 @@ The codes of all checks, which other programs may rely on; PART stands for the n
     pattern.neck             necks are wide enough for the process
     pattern.band             so are the bands of a multitone
 
+    shop.polygons            the print shop accepts the number of triangles,
+    shop.file                the size of the files,
+    shop.box                 the bounding box
+    shop.wall.PART           and the thinnest wall of each part
+
 FIT is "fit" for two parts, and "fit.FIRST-SECOND" with their names for each pair of more. A single part has
-no fit.* checks but `fit.process_gap`, and only a pattern that is known to have bands has `pattern.band`. What is not
-known or could not be measured is skipped, not left out.
+no fit.* checks but `fit.process_gap`, only a pattern that is known to have bands has `pattern.band`, and there are
+shop.* checks only of the limits that a shop has. What is not known or could not be measured is skipped, not left out.
 """
 
 from __future__ import annotations
@@ -54,6 +59,7 @@ from fabricate.checks.geometry import (
 from fabricate.checks.necks import narrowest_neck
 from fabricate.checks.pairs import Fit, Solid, fit
 from fabricate.checks.printability import band_check, neck_check, part_neck_check, process_gap_check, wall_check
+from fabricate.checks.shop import shop_checks
 from fabricate.checks.topology import topology
 from fabricate.checks.walls import Walls, walls
 from fabricate.errors import ReadError
@@ -143,6 +149,7 @@ def judged_parts(parts: Sequence[Part], expectations: Expectations) -> Judgement
     facts = MappingProxyType(
         {each.part.name: replace(each.facts, neck_mm=necks.get(each.part.name)) for each in judged}
     )
+    checks += shop_checks(parts, facts, {each.part.name: each.walls for each in judged}, expectations.shop)
     return Judgement(facts, together.facts if together else None, tuple(checks))
 
 

@@ -16,7 +16,7 @@ from fabricate.checks.facts import Spread
 from fabricate.solid.part import Part
 from fabricate.triangles.inscribed_balls import inscribed_balls
 from fabricate.triangles.normals import area_vectors
-from fabricate.triangles.ray_casting import RayTarget
+from fabricate.triangles.ray_casting import Hits, RayTarget
 from fabricate.triangles.search_tree import SearchTree
 
 MOST_RAYS = 200_000
@@ -25,8 +25,8 @@ MOST_RAYS = 200_000
 MOST_BALLS = 5_000
 """So many places of the part get a ball: half of them where it is thinnest, the others evenly all over it."""
 
-CLOSER = 2_000
-"""So many of the triangles with the thinnest walls are looked at more closely."""
+CLOSER = 400
+"""So many of the places with the thinnest walls are looked at more closely, on the triangles at either end."""
 
 DIVISIONS = 4
 """Each side of such a triangle is divided into so many steps, and a ray begins at each place of the grid."""
@@ -42,6 +42,11 @@ START_SHARE = 1e-6
 
 OPPOSITE = -0.8
 """Two faces are opposite walls when the cosine between their normals is less."""
+
+
+ACROSS = 0.95
+"""A ball is stopped on the far side when the cosine between the way there and the way straight inward is more: between
+two planes this is the same angle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,26 +108,35 @@ class _Probe:
     target: RayTarget
     start: float
 
-    def hit(self, sent: _Sent) -> Walls:
-        """Measure by rays; places whose first hit is no opposite wall are left out."""
+    def hit(self, sent: _Sent) -> Hits:
+        """Return what rays from these places straight inward meet first."""
         inward = -self.normals[sent.triangles]
         hits = self.target.first_hits(sent.places + self.start * inward, inward)
-        return self._opposite(sent, hits.distance + self.start, hits.triangle)
+        return Hits(hits.triangle, hits.distance + self.start)
 
-    def fitted(self, found: Walls, tree: SearchTree, middle: Floats) -> Walls:
-        """Measure by balls, from the places of walls that rays have found; `tree` is that of the part in its place."""
-        own = found.faces[:, 0]
-        balls = inscribed_balls(tree, found.places + middle, self.normals[own], largest=0.5 * found.thickness)
-        sent = _Sent(own, found.places, np.zeros(len(own)))
-        return self._opposite(sent, 2.0 * balls.radius, balls.triangle)
-
-    def _opposite(self, sent: _Sent, thickness: Floats, other: Indices) -> Walls:
-        cosines = np.einsum("ij,ij->i", self.normals[sent.triangles], self.normals[other])
-        good = (other >= 0) & (cosines < OPPOSITE)
+    def opposite(self, sent: _Sent, hits: Hits) -> Walls:
+        """Return the walls that rays have measured: where what they met is an opposite face."""
+        cosines = np.einsum("ij,ij->i", self.normals[sent.triangles], self.normals[hits.triangle])
+        good = (hits.triangle >= 0) & (cosines < OPPOSITE)
         # At its very edge every blade is thin: only middles of triangles count beside the edge that they share.
-        good &= (sent.areas > 0.0) | ~self._meet(sent.triangles, other)
-        faces = np.column_stack([sent.triangles, other])
-        return Walls(thickness[good], sent.places[good], sent.areas[good], faces[good])
+        good &= (sent.areas > 0.0) | ~self._meet(sent.triangles, hits.triangle)
+        faces = np.column_stack([sent.triangles, hits.triangle])
+        return Walls(hits.distance[good], sent.places[good], sent.areas[good], faces[good])
+
+    def fitted(self, sent: _Sent, largest: Floats, tree: SearchTree, middle: Floats) -> Walls:
+        """Return the walls that balls have measured: where one is stopped on the far side.
+
+        `largest` are the diameters to begin with, (k,) mm; `tree` is that of the part in its place, with `middle` at
+        the probe's origin.
+        """
+        normals = self.normals[sent.triangles]
+        balls = inscribed_balls(tree, sent.places + middle, normals, largest=0.5 * largest)
+        across = balls.point - (sent.places + middle)
+        thickness = np.linalg.norm(across, axis=1)
+        good = (balls.triangle >= 0) & (-np.einsum("ij,ij->i", across, normals) > ACROSS * thickness)
+        good &= ~self._meet(sent.triangles, balls.triangle)
+        faces = np.column_stack([sent.triangles, balls.triangle])
+        return Walls(thickness[good], sent.places[good], np.zeros(good.sum()), faces[good])
 
     def _meet(self, first: Indices, second: Indices) -> Mask:
         """Tell which pairs of triangles share a point."""
@@ -152,9 +166,12 @@ def walls(part: Part, tree: SearchTree) -> Walls:
         RayTarget.of(points, part.triangles),
         max(START, START_SHARE * float(np.ptp(points, axis=0).max())),
     )
-    found = probe.hit(_Sent(sending, points[part.triangles[sending]].mean(axis=1), 0.5 * lengths[sending]))
-    found = _joined([found, probe.hit(_grid(probe, found))])
-    found = _joined([found, probe.fitted(_for_balls(found), tree, middle)])
+    sent = _Sent(sending, points[part.triangles[sending]].mean(axis=1), 0.5 * lengths[sending])
+    hits = probe.hit(sent)
+    by_rays, by_balls = probe.opposite(sent, hits), _by_balls(probe, sent, hits, tree, middle)
+    closer = _grid(probe, _joined([by_rays, by_balls]))
+    hits = probe.hit(closer)
+    found = _joined([by_rays, by_balls, probe.opposite(closer, hits), _by_balls(probe, closer, hits, tree, middle)])
     return Walls(found.thickness, found.places + middle, found.areas, found.faces)
 
 
@@ -178,11 +195,12 @@ def _grid(probe: _Probe, found: Walls) -> _Sent:
     return _Sent(np.repeat(triangles, len(weights)), places, np.zeros(len(places)))
 
 
-def _for_balls(found: Walls) -> Walls:
-    """Return the walls from which balls are tried: the thinnest ones, and others evenly."""
-    count = len(found.thickness)
-    chosen = np.arange(count)
-    if count > MOST_BALLS:
-        half = MOST_BALLS // 2
-        chosen = np.concatenate([chosen[:half], chosen[half :: -(-(count - half) // half)]])
-    return Walls(found.thickness[chosen], found.places[chosen], found.areas[chosen], found.faces[chosen])
+def _by_balls(probe: _Probe, sent: _Sent, hits: Hits, tree: SearchTree, middle: Floats) -> Walls:
+    """Return the walls that balls find: half of them are tried where rays were shortest, the others evenly."""
+    order = np.argsort(hits.distance, kind="stable")
+    order = order[: np.isfinite(hits.distance).sum()]
+    half = MOST_BALLS // 2
+    if len(order) > MOST_BALLS:
+        order = np.concatenate([order[:half], order[half :: -(-(len(order) - half) // half)]])
+    chosen = _Sent(sent.triangles[order], sent.places[order], sent.areas[order])
+    return probe.fitted(chosen, hits.distance[order], tree, middle)

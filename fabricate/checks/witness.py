@@ -50,7 +50,7 @@ def farthest(rows: Floats, gaps: Floats, target: Floats) -> tuple[float, Indices
     if not len(rows):
         return np.inf, np.zeros(0, dtype=np.int64)
     solved = linprog(gaps, A_eq=rows.T, b_eq=target, bounds=(0.0, None))
-    if solved.status != 0:
+    if solved.x is None or solved.fun is None:
         return np.inf, np.zeros(0, dtype=np.int64)
     return float(solved.fun), np.flatnonzero(solved.x > 0.0)
 

@@ -25,10 +25,13 @@ class Balls(NamedTuple):
         mm.
     triangle : (k,) int
         The triangle that stops each ball from being larger, -1 where none does.
+    point : (k, 3) float
+        Where it does; the place itself where none does.
     """
 
     radius: Floats
     triangle: Indices
+    point: Floats
 
 
 def inscribed_balls(tree: SearchTree, places: Floats, normals: Floats, *, largest: Floats) -> Balls:
@@ -37,7 +40,7 @@ def inscribed_balls(tree: SearchTree, places: Floats, normals: Floats, *, larges
     No ball is larger than `largest`, (k,) mm. A ball that something reaches into is shrunk until that only touches it
     (shrinking balls: Ma, Bae, Choi 2012), and so on.
     """
-    radius, triangle = np.array(largest), np.full(len(places), -1)
+    radius, triangle, point = np.array(largest), np.full(len(places), -1), np.array(places)
     left = np.arange(len(places))
     for _ in range(ROUNDS):
         centres = places[left] - radius[left, None] * normals[left]
@@ -49,5 +52,5 @@ def inscribed_balls(tree: SearchTree, places: Floats, normals: Floats, *, larges
         if not len(left):
             break
         radius[left] = np.einsum("ij,ij->i", away, away) / (2.0 * ahead)
-        triangle[left] = found.triangle[reached]
-    return Balls(radius, triangle)
+        triangle[left], point[left] = found.triangle[reached], found.point[reached]
+    return Balls(radius, triangle, point)

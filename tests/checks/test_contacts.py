@@ -7,7 +7,7 @@ import pytest
 from joints import GAP, ball, case, half_balls, spacing
 
 from fabricate.arrays import Floats
-from fabricate.checks.contacts import contacts, joint_pivot
+from fabricate.checks.contacts import contacts, facing_triangles, joint_pivot
 
 
 def test_contacts_face_each_other_at_the_clearance() -> None:
@@ -35,3 +35,18 @@ def test_without_contacts_the_pivot_is_the_centroid() -> None:
     met = contacts(spacing(ball(5.0), ball(5.0, (30.0, 0.0, 0.0))), clearance=GAP)
     assert len(met.gaps) == 0
     assert joint_pivot(met, np.ones(3)).tolist() == [1, 1, 1]
+
+
+def test_triangles_that_face_the_other_part_are_those_of_the_joint() -> None:
+    inside, outside = ball(10.0), case(10.0 + GAP)
+    measured = spacing(inside, outside)
+    one = facing_triangles(measured.first, measured.second, measured.to_second, clearance=GAP)
+    other = facing_triangles(measured.second, measured.first, measured.to_first, clearance=GAP)
+    assert one.all()
+    assert other.tolist() == [False] * 12 + [True] * len(inside.triangles)
+
+
+def test_without_clearance_the_shared_faces_are_the_joint() -> None:
+    measured = spacing(ball(10.0), case(10.0))
+    other = facing_triangles(measured.second, measured.first, measured.to_first, clearance=0.0)
+    assert other.tolist() == [False] * 12 + [True] * (len(other) - 12)
