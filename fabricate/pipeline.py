@@ -27,7 +27,7 @@ from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
 from fabricate.output.sculpture import write_parts, write_pictures
 from fabricate.picture.witness_marks import witness_marks
-from fabricate.prepare.density import finest_tile
+from fabricate.prepare.density import check_room, finest_tile
 from fabricate.prepare.inspection import Inspection, inspected
 from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
@@ -195,6 +195,8 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         cage=not isinstance(source, FileConfig),
         round_limit=isinstance(source, SphereConfig),
     )
+    if isinstance(pattern.tile_size, float):
+        check_room(pattern.positions, tile_size=pattern.tile_size, clearance=clearance)
     if pattern.tile_size != "auto":
         return wish, ()
     finest = finest_tile(feature, clearance, extent=source.size, rings=pattern.positions)

@@ -14,7 +14,7 @@ PACKAGE = Path(next(iter(fabricate.__path__)))
 TESTS = Path(__file__).parent
 
 ROWS = [
-    {"errors", "units", "arrays", "versions", "process", "config"},
+    {"errors", "units", "arrays", "versions", "process", "region_names", "config"},
     {"triangles"},
     {"mesh"},
     {"formats"},

@@ -18,9 +18,10 @@ from fabricate.config import (
 )
 from fabricate.formats.source import source_mesh
 from fabricate.mesh.closed import genus
+from fabricate.prepare.density import neck_share
 from fabricate.process import PROCESSES
 
-PATHS = sorted((Path(__file__).parents[1] / "configs").glob("*.toml"))
+PATHS = sorted((Path(__file__).parents[1] / "configs").rglob("*.toml"))
 each_path = pytest.mark.parametrize("path", PATHS, ids=lambda path: path.stem)
 Configs = dict[str, Config]
 
@@ -87,8 +88,7 @@ def test_the_first_one_is_that_of_the_readme(configs: Configs) -> None:
 def test_necks_and_walls_of_square_tiles_come_out_of_the_printer(path: Path) -> None:
     config = load_config(path)
     process, tile = PROCESSES[config.process.name], config.pattern.tile_size
-    assert tile is not None
-    narrowest = 2**0.5 - 2 * max(config.pattern.arc, 1 - config.pattern.arc)
-    assert narrowest * tile - config.solid.clearance >= process.feature_min
+    assert isinstance(tile, float)
+    assert neck_share(config.pattern.positions) * tile - config.solid.clearance >= process.feature_min
     assert config.solid.thickness >= process.wall_min
     assert config.solid.clearance == 0.0 or config.solid.clearance >= process.gap_default

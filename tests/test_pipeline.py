@@ -170,6 +170,42 @@ def test_check_passes_what_run_made(copy: Path) -> None:
     assert status("check", str(copy / "yellow.stl"), str(copy / "blue.stl"), "--clearance", "0.3 mm") == 0
 
 
+def test_a_multitone_is_made_proved_and_checked(
+    config: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sizes = ("source.size=100mm", "pattern.tile_size=20mm", "solid.tolerance=0.5mm")
+    report = run(config, tmp_path, 'pattern.rings="four"', *sizes)
+    names = ["yellow", "band-1", "band-2", "blue"]
+    folder = tmp_path / "small"
+    assert {path.name for path in folder.glob("*.stl")} == {f"{name}.stl" for name in names}
+    assert list(report.parts) == names
+    assert report.pattern is not None
+    assert report.fit is not None
+    assert (report.pattern.curves, report.pattern.regions) == (3, 4)
+    assert list(report.pattern.handles.items()) == [("yellow", 0), ("band-1", 0), ("band-2", 0), ("blue", 1)]
+    assert sum(report.pattern.area_share.values()) == pytest.approx(1)
+    assert [part.genus for part in report.parts.values()] == [0, 1, 1, 2]
+    neighbours = {name for name, pair in report.fit.pairs.items() if pair.verdict == "captive"}
+    assert neighbours == {"yellow-band-1", "band-1-band-2", "band-2-blue"}
+    assert (report.fit.verdict, failed(report, with_printability=False)) == ("captive", [])
+    assert status("check", str(folder)) in (0, 1)
+    said = capsys.readouterr().out
+    assert all(f"passed  {name}.genus" in said for name in names)
+    assert "passed  fit.band-1-band-2.gap" in said
+    if JUDGE:
+        parts = [str(folder / f"{name}.stl") for name in names]
+        judged = subprocess.run(
+            [sys.executable, JUDGE, *parts, "--clearance", "0.3"], capture_output=True, text=True, check=False
+        )
+        assert judged.returncode == 0, judged.stdout + judged.stderr
+
+
+def test_one_ring_is_an_arc(config: Path, made: Path, tmp_path: Path) -> None:
+    run(config, tmp_path, "pattern.rings=[0.5]")
+    for name in FILES - {"report.json", "config.toml"}:
+        assert (tmp_path / "small" / name).read_bytes() == (made / name).read_bytes(), name
+
+
 def move_vertex(path: Path, *, by: float) -> None:
     """Move one vertex of a binary STL away from the origin, in all of its triangles, and nothing else."""
     data = bytearray(path.read_bytes())
@@ -245,6 +281,11 @@ WRONG = {
     "wide clearance": ('shape = "torus"', ["pattern.tile_size=20mm", "solid.clearance=15mm"], "clearance"),
     "no yellow necks": ('shape = "torus"', ["pattern.arc=0.295", "solid.clearance=0.6mm"], "necks"),
     "no blue necks": ('shape = "torus"', ["pattern.arc=0.705", "solid.clearance=0.6mm"], "necks"),
+    "rings in reverse": ('shape = "torus"', ["pattern.rings=[0.6, 0.4]"], "increase"),
+    "rings out of bounds": ('shape = "torus"', ["pattern.rings=[0.2, 0.4]"], "between 0.293 and 0.707"),
+    "no rings": ('shape = "torus"', ["pattern.rings=[]"], "found none"),
+    "unknown rings": ('shape = "torus"', ["pattern.rings=thre"], "three"),
+    "rings too close": ('shape = "torus"', ["pattern.rings=[0.49, 0.51]"], "band-1"),
     "too many levels": ('shape = "torus"', ["pattern.levels=12"], "levels"),
     "no key": ('shape = "torus"', ["=2"], "key=value"),
     "large tiles": ('shape = "torus"', ["pattern.tile_size=500mm"], "tile"),
@@ -286,7 +327,7 @@ def test_a_mesh_from_a_file_makes_a_pair(tmp_path: Path) -> None:
 
 def failed(report: Report, *, with_printability: bool) -> list[str]:
     """Return the sentences of failed checks; walls and necks are made for the intended tile size only."""
-    of_the_process = (".wall", "pattern.neck", "fit.process_gap")
+    of_the_process = (".wall", "pattern.neck", "pattern.band", "fit.process_gap")
     return [
         check.message
         for check in report.checks

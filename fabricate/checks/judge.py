@@ -15,8 +15,9 @@ The codes of all checks, which other programs may rely on; PART stands for the n
     PART.neck                its narrowest neck, between two walls that face other parts, is wide enough too
     FIT.overlap              two parts have no volume in common
     FIT.gap                  the smallest gap between them is at least 95 % of the clearance
-    FIT.gap_max              along the joint's mid-line it is at most 1.3 times the clearance
-    FIT.mobility             they are captive, separable or fused, as they should be
+    FIT.gap_max              along the joint's mid-line it is at most 1.3 times the clearance,
+    FIT.mobility             and they are captive, separable or fused, as they should be: of more than two parts,
+                             these two are judged of those that face each other
     fit.whole                volumes of the parts and the gap add up to the uncut shell
     fit.process_gap          the process keeps the clearance open
     pattern.neck             necks are wide enough for the process

@@ -14,12 +14,12 @@ from fabricate.checks.facts import Chords, Distance, MeshFacts, PatternFacts, Sp
 from fabricate.config import ShopConfig
 from fabricate.duotone.certificate import Certificate, RegionFacts
 from fabricate.duotone.duotone import Duotone
-from fabricate.duotone.region_names import region_names
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.tile_quality import tile_quality
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.process import Process
+from fabricate.region_names import region_names
 from fabricate.solid.assembly import Assembly, Core
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.deviation import deviation

@@ -94,12 +94,13 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
     smaller = min(first.manifold.volume(), second.manifold.volume())
     apart = not only_pair and clearance is not None and gap.min > REACH * clearance
     found = None if apart else _holding(spacing, first, second, gap, clearance)
-    checks = (
+    checks = [
         overlap_check(f"{prefix}.overlap", first.part, second.part, common, smaller_volume=smaller),
         gap_check(f"{prefix}.gap", first.part, second.part, gap, clearance=clearance),
-        widest_gap_check(f"{prefix}.gap_max", first.part, second.part, gap, clearance=clearance),
-        _moving(f"{prefix}.mobility", first.part, second.part, found, expectations, apart=apart),
-    )
+    ]
+    if not apart:
+        checks.append(widest_gap_check(f"{prefix}.gap_max", first.part, second.part, gap, clearance=clearance))
+        checks.append(_moving(f"{prefix}.mobility", first.part, second.part, found, expectations))
     facts = PairFacts(
         gap_mm=gap,
         overlap_mm3=common.volume(),
@@ -107,7 +108,7 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
         play_mm=found.play if found else None,
         witness=found.witness_facts if found else None,
     )
-    return _Pair(facts, checks, () if clearance is None else _facing(first, second, spacing, clearance))
+    return _Pair(facts, tuple(checks), () if clearance is None else _facing(first, second, spacing, clearance))
 
 
 def _facing(first: Solid, second: Solid, spacing: Spacing, clearance: float) -> tuple[tuple[str, Mask], ...]:
@@ -143,13 +144,10 @@ def _holding(spacing: Spacing, first: Solid, second: Solid, gap: Gap, clearance:
     return None if clearance is None else holding(spacing, first.manifold, second.manifold, clearance=clearance)
 
 
-def _moving(
-    code: str, first: Part, second: Part, found: Holding | None, expectations: Expectations, *, apart: bool
-) -> Check:
+def _moving(code: str, first: Part, second: Part, found: Holding | None, expectations: Expectations) -> Check:
     if found is not None:
         return holding_check(code, first, second, found, expected=expectations.expected_verdict)
-    reason = "other parts lie between them" if apart else "the clearance is not known"
-    message = f"how {first.name} and {second.name} move was not judged, because {reason}"
+    message = f"how {first.name} and {second.name} move was not judged, because the clearance is not known"
     return Check(code, ok=False, skipped=True, message=message)
 
 

@@ -6,6 +6,8 @@ gap for parts printed in place it passes, and the message says that it is tight.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from fabricate.checks.check import Check
@@ -90,12 +92,13 @@ def band_check(band: Band, *, clearance: float | None, process: Process | None) 
         return Check(code, ok=False, skipped=True, message=message)
     left = band.width - clearance
     ok = left >= process.feature_min
-    spacing = band.spacing * (process.feature_min + clearance) / max(band.width, 1e-9)
+    factor = (process.feature_min + clearance) / max(band.width, 1e-9)
+    spacing = math.ceil(1e3 * factor * band.spacing) / 1e3
     advice = (
         ""
         if ok
-        else f", at {place(band.at)}; ask for larger tiles, or rings at least {spacing:.3g} apart instead of "
-        f"{band.spacing:.3g}"
+        else f", at {place(band.at)}; ask for tiles {math.ceil(1e2 * factor) / 1e2:g} times as large, or rings at "
+        f"least {spacing:g} apart there instead of {band.spacing:.3g}"
     )
     return Check(
         code,

@@ -17,10 +17,10 @@ LOWEST, HIGHEST = 0.293, 0.707
 RingDesign: TypeAlias = Literal["two", "three", "four"]
 
 RING_DESIGNS: Mapping[RingDesign, tuple[float, ...]] = MappingProxyType(
-    {"two": (0.5,), "three": (0.4, 0.6), "four": (0.37, 0.46, 0.63)}
+    {"two": (0.5,), "three": (0.4, 0.6), "four": (0.36, 0.5, 0.615)}
 )
 """Tiles of two, three and more regions of different widths, as in figure 4.22 of Garigipati 2013. The positions are
-ours: on a square tile necks and bands share 0.414 of its side, and none has less than 0.2, or 0.09 of four regions."""
+ours: on a square tile necks and bands share 0.414 of its side, and none has less than 0.2, or 0.115 of four regions."""
 
 
 def _as_tuple(value: object) -> object:
@@ -44,6 +44,6 @@ Rings: TypeAlias = Annotated[
     tuple[float, ...],
     BeforeValidator(_as_tuple),
     AfterValidator(_increasing),
-    Takes("increasing numbers between 0.293 and 0.707 such as [0.4, 0.6]"),
+    Takes("a list of increasing numbers between 0.293 and 0.707 such as [0.4, 0.6]"),
 ]
 """Fractions of a tile edge, from its yellow end."""

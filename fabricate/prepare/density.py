@@ -11,6 +11,7 @@ import numpy as np
 from fabricate.errors import PrepareError
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.prepare.tile_sides import tile_sides
+from fabricate.region_names import region_names
 
 NARROWING = 1.3
 """How much wider the neck of a typical tile must be than the narrowest that prints, as tiles vary.
@@ -22,6 +23,9 @@ not thin: 19 of 20 necks are then wide enough.
 FEWEST_TILES = 8
 """A body is divided into at least so many tiles along its longest side: a ball then has about 200."""
 
+
+MET_WITHIN = 1.4
+"""Factor within which a tile size that is asked for is met."""
 
 TOO_FINE = 2.5
 """A file's own cells are too fine when their tiles are smaller than those asked for by more than this factor."""
@@ -101,14 +105,46 @@ def neck_share(rings: Sequence[float]) -> float:
     PrepareError
         If opposite arcs meet, which is where a position is not between 0.293 and 0.707, or rings do not increase.
     """
-    share = float(np.sqrt(2.0)) - 2.0 * max(*rings, *(1.0 - ring for ring in rings))
-    if not share > 0.0:
+    shares = _shares(rings)
+    if not min(shares["yellow"], shares["blue"]) > 0.0:
         found = ", ".join(f"{ring:g}" for ring in rings)
         raise PrepareError(f"pattern.arc must be between 0.293 and 0.707 for both colours to have necks, found {found}")
-    narrowest = min([share, *(outer - inner for inner, outer in pairwise(rings))])
-    if not narrowest > 0.0:
+    if not min(shares.values()) > 0.0:
         raise PrepareError("pattern.rings must increase for bands to have a width")
-    return narrowest
+    return min(shares.values())
+
+
+def check_room(rings: Sequence[float], *, tile_size: float, clearance: float) -> None:
+    """Raise an error if tiles of about this size have necks or bands of which the clearance leaves nothing; mm.
+
+    No choice of tiles helps then, and looking for one takes long.
+
+    Raises
+    ------
+    PrepareError
+    """
+    for name, share in _shares(rings).items():
+        width = share * MET_WITHIN * tile_size
+        if width <= clearance:
+            what = "the necks of " if name in ("yellow", "blue") else ""
+            aim = "pattern.arc or rings nearer to 0.5" if what else "pattern.rings that are further apart there"
+            least = clearance / (MET_WITHIN * tile_size)
+            raise PrepareError(
+                f"a clearance of {clearance:g} mm leaves nothing of {what}{name}, {share:.3g} of a tile of about "
+                f"{tile_size:g} mm, where it has to be more than {least:.3g}; ask for a smaller solid.clearance, a "
+                f"larger pattern.tile_size or {aim}"
+            )
+
+
+def _shares(rings: Sequence[float]) -> dict[str, float]:
+    """Return how wide the necks of yellow and blue and the bands are on a square tile of side 1, by region."""
+    diagonal = float(np.sqrt(2.0))
+    widths = [
+        diagonal - 2.0 * (1.0 - rings[0]),
+        *(outer - inner for inner, outer in pairwise(rings)),
+        diagonal - 2.0 * rings[-1],
+    ]
+    return dict(zip(region_names(len(widths)), widths, strict=True))
 
 
 def too_fine(mesh: PolygonMesh, *, size: float, tile_size: float) -> bool:

@@ -17,11 +17,12 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, frozen
-from fabricate.duotone.region_names import region_names
+from fabricate.region_names import region_names
 from fabricate.solid.facing import wall_gaps
 from fabricate.solid.floor import floor_drop, lowered
 from fabricate.solid.layers import Layer, flipped, hugging, layer, layer_shares, shares_near, wall
 from fabricate.solid.part import Part
+from fabricate.solid.unfolding import unfolded
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import unit
 
@@ -167,6 +168,7 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
     for _ in range(CORRECTIONS):
         levels = [surface.points, inner] + ([] if keeper is None else [inner + drop[:, None] * down])
         outer, inner_own, *floor_own = [layer_shares(surface, points, down, clearance=wanted) for points in levels]
+        outer = unfolded(surface, surface.points, outer)
         drawn = tuple(
             shares_near(above, own, nearness=near) for above, own, near in zip(outer, inner_own, nearness, strict=True)
         )

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
-from fabricate.duotone.region_names import region_names
 from fabricate.errors import SolidError
+from fabricate.region_names import region_names
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.neck import band_widths, tile_necks
 from fabricate.triangles.normals import unit
@@ -99,7 +99,7 @@ def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearanc
     parts find it.
     """
     wanted = clearance / _uprightness(sides.left[:, 0], normals, down)
-    lengths = [_length(side) for side in sides]
+    lengths = [half_length(side) for side in sides]
     slants = _slants(sides, normals)
     room = np.maximum(np.stack([length * slant for length, slant in zip(lengths, slants, strict=True)]), 1e-9)
     crowded = np.clip(ROOMY - room.min(axis=0) / wanted, 0.0, 1.0)
@@ -139,7 +139,8 @@ def along(side: Floats, shares: Floats) -> Floats:
     return result
 
 
-def _length(side: Floats) -> Floats:
+def half_length(side: Floats) -> Floats:
+    """Return the length of each half-ray, (c,) float, mm."""
     length: Floats = np.linalg.norm(np.diff(side, axis=1), axis=2).sum(axis=1)
     return length
 

@@ -51,6 +51,9 @@ had to more often than so many times."""
 SAFE_DEPTH = 0.002
 """The safe depth, as a share of the thickness: straight in, and so little that a surface that is embedded stays so."""
 
+STUBBORN, SHALLOWEST = 8, 1.0 / 32.0
+"""How often points retreat before the safe depth is halved each time, as slivers need, and its least share."""
+
 
 def ways_in(surface: CutSurface, *, thickness: float) -> Floats:
     """Return the ways by which points move in for each mm of depth, (n, 3); longer than 1 where they lean.
@@ -160,6 +163,12 @@ def retreating(surface: CutSurface, faulty: Mask, means: csr_array) -> Mask:
     around = faulty.copy()
     around[surface.rays[faulty[surface.rays].any(axis=2)]] = True
     return grown(around, means, 1)
+
+
+def safe_share(times: Indices) -> Floats:
+    """Return the share of the safe depth that points go back to which had to retreat so many times, (n,) float."""
+    share: Floats = np.maximum(0.5 ** np.maximum(times - STUBBORN, 0), SHALLOWEST)
+    return share
 
 
 def retreated(inner: Floats, around: Mask, means: csr_array, *, safe: Floats, times: Indices) -> Floats:

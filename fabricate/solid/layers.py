@@ -72,7 +72,8 @@ def hugging(surface: CutSurface, upper: Layer, lower: Layer, *, depth: Floats) -
         return lower
     copies = []
     for region, (above, below) in enumerate(zip(upper.copies, lower.copies, strict=True)):
-        straight = above + depth[:, None] * straight_down(above, surface.triangles[surface.regions == region])
+        around = (surface.regions == region) & (near > 0.0)[surface.triangles].any(axis=(1, 2))
+        straight = above + depth[:, None] * straight_down(above, surface.triangles[around])
         copies.append(below + near * (straight - below))
     return Layer(tuple(copies))
 

@@ -8,6 +8,7 @@ from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.clearance import check_necks
+from fabricate.solid.dither import dithered
 from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.inset import (
     SAFE_DEPTH,
@@ -16,6 +17,7 @@ from fabricate.solid.inset import (
     relaxed,
     retreated,
     retreating,
+    safe_share,
     spread,
     straight_down,
     ways_in,
@@ -28,8 +30,9 @@ from fabricate.triangles.crossing import crossing_triangles
 RETREAT_FROM, ALL_ROUNDS = 4, 80
 """Round from which stubborn places retreat, and rounds in all; the checks report what is left."""
 
-PATIENCE = 20
-"""Rounds of retreat in which nothing gets better, before the rest is left as it is."""
+PATIENCE, UNHEEDED = 20, 3
+"""Rounds of retreat in which nothing gets better, before the rest is left as it is; and before places that are too near
+are seen to although others still cross."""
 
 CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
@@ -53,20 +56,22 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
     _check_thick(surface, down, clearance)
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
-    safe = surface.points + SAFE_DEPTH * thickness * straight_down(surface.points, surface.triangles)
+    straight = SAFE_DEPTH * thickness * straight_down(surface.points, surface.triangles)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
     times = np.zeros(len(inner), dtype=np.int64)
-    fewest, waited = (len(inner), len(inner)), 0
+    fewest, waited = np.full(2, len(inner)), 0
     for step in range(ALL_ROUNDS):
         made = assembly(surface, inner, clearance=clearance, core=core)
-        crossing, near = _faults(made, clearance, moved, all_kinds=step < RETREAT_FROM)
+        stuck = waited >= UNHEEDED
+        all_kinds = step < RETREAT_FROM or stuck
+        crossing, near = _faults(made, clearance, moved | stuck, all_kinds=all_kinds)
         faulty = crossing | near
         if not faulty.any():
             break
-        left = (int(crossing.sum()), int(near.sum()))
         if step >= RETREAT_FROM:
-            fewest, waited = min(fewest, left), waited + 1 if left >= fewest else 0
+            left = np.array([crossing.sum(), near.sum() if all_kinds or not crossing.any() else len(inner)])
+            fewest, waited = np.minimum(fewest, left), waited + 1 if (left >= fewest).all() else 0
             if waited == PATIENCE:
                 break
         if step < RETREAT_FROM:
@@ -74,10 +79,11 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
         else:
             around = retreating(surface, faulty, means)
             times += around
+            safe = surface.points + safe_share(times)[:, None] * straight
             mended = retreated(inner, around, means, safe=safe, times=times)
         moved = (mended != inner).any(axis=1)
         inner = mended
-    return made
+    return dithered(made)
 
 
 def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> tuple[Mask, Mask]:

@@ -7,21 +7,28 @@ smooth surface lacks before it takes on fine detail, and where its own sheets ar
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, frozen
+from fabricate.surface.deviation import spread
 from fabricate.surface.embedding import Embedding
 from fabricate.surface.smoothing import diffused, low_pass, passes_over, steadied
 from fabricate.surface.stepping import stepped, untangled
 from fabricate.surface.target import Target
 from fabricate.triangles.adjacency import grown, neighbour_distances
 from fabricate.triangles.normals import unit, vertex_normals
+from fabricate.triangles.search_tree import SearchTree
 
 SCHEDULE = (20, 10, 4, 2, 0)
 """How often the moves are smoothed in each round."""
+
+LATE, MISSED, PLACES = (2, 1, 0), 0.001, 20_000
+"""The rounds added where more than such a share of the target, seen at so many places, is missed by more than `ASTRAY`.
+What was held back because others were in the way comes nearer once these have moved."""
 
 REACH = 0.12
 """How far a point may move in a round, as a share of the bounding box's diagonal."""
@@ -91,15 +98,21 @@ def carried(
     embedding = Embedding.of(triangles, count=len(points))
     target = Target.of(onto_points, onto_triangles)
     reach = REACH * float(np.linalg.norm(np.ptp(onto_points, axis=0)))
-    outer = untangled(points, embedding.means, embedding.crossed)
-    for passes in SCHEDULE:
-        slid = _slid(outer, points, normals, embedding.means)
-        aims = target.aims(slid, normals, reach=reach)
-        spacing = neighbour_distances(slid, triangles)
-        moved = slid + steadied(aims.place - slid, aims.weight, embedding.means, spacing, passes=passes)
-        outer = stepped(outer, moved, embedding.means, embedding.faults_since(outer))
-        normals = _steady_normals(outer, embedding)
+
+    def drawn(outer: Floats, normals: Floats, schedule: Sequence[int]) -> Floats:
+        for passes in schedule:
+            slid = _slid(outer, points, normals, embedding.means)
+            aims = target.aims(slid, normals, reach=reach)
+            spacing = neighbour_distances(slid, triangles)
+            moved = slid + steadied(aims.place - slid, aims.weight, embedding.means, spacing, passes=passes)
+            outer = stepped(outer, moved, embedding.means, embedding.faults_since(outer))
+            normals = _steady_normals(outer, embedding)
+        return outer
+
+    outer = drawn(untangled(points, embedding.means, embedding.crossed), normals, SCHEDULE)
     outer = _smooth_where_astray(outer, points, embedding, target)
+    if _missed(outer, triangles, target) > MISSED:
+        outer = drawn(outer, _steady_normals(outer, embedding), LATE)
     edge = float(np.median(np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1)))
     smooth = points + low_pass(outer - points, embedding.means, passes=passes_over(smoothing, edge))
     base = stepped(outer, smooth, embedding.means, embedding.faults_since(outer))
@@ -131,6 +144,12 @@ def _smooth_where_astray(outer: Floats, points: Floats, embedding: Embedding, ta
     for _ in range(FILLING):
         moves[astray] = embedding.means[astray] @ moves
     return stepped(outer, points + moves, embedding.means, embedding.faults_since(outer))
+
+
+def _missed(points: Floats, triangles: Indices, target: Target) -> float:
+    """Return the share of the target that is further than `ASTRAY` from the surface."""
+    places = spread(target.tree.points, target.tree.triangles, count=PLACES)
+    return float((SearchTree.of(points, triangles).nearest(places).distance > ASTRAY).mean())
 
 
 def _steady_normals(points: Floats, embedding: Embedding) -> Floats:

@@ -19,6 +19,7 @@ from fabricate.solid.assembly import Core
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
+from fabricate.surface.cut_certificate import cut_certificate
 from fabricate.surface.neck import tile_necks
 from fabricate.surface.sizing import sized, tiled
 from fabricate.surface.tiling import Tiling
@@ -90,6 +91,23 @@ def test_solids_have_the_handles_of_both_of_their_sides(core: Core, genus: tuple
     assert with_band == {"yellow": genus[0], "band-1": 1, "blue": genus[1]}
 
 
+def test_a_multitone_is_counted_and_measured_by_the_names_of_its_regions(duotone: Duotone) -> None:
+    surface = fitted_cut(duotone, rings=(0.4, 0.48, 0.6), tolerance=0.3)
+    certificate = cut_certificate(surface)
+    facts = pattern_facts(duotone, certificate, surface)
+    names = ["yellow", "band-1", "band-2", "blue"]
+    assert (facts.curves, facts.regions) == (3, 4)
+    assert list(facts.area_share) == list(facts.handles) == names
+    assert sum(facts.area_share.values()) == pytest.approx(1)
+    assert list(facts.band_mm) == ["band-1", "band-2"]
+    assert facts.band_mm["band-1"].median == pytest.approx(0.08 * facts.tile_size_mm, rel=0.2)
+    made = solids(surface, thickness=2.0, clearance=0.0)
+    band = expectations(surface, made, certificate, clearance=0.0, core="hollow").band
+    assert band is not None
+    assert (band.name, band.width) == ("band-1", facts.band_mm["band-1"].min)
+    assert band.spacing == pytest.approx(0.08)
+
+
 def test_expectations_say_what_was_asked_and_made(duotone: Duotone, surface: CutSurface) -> None:
     made, process = solids(surface, thickness=2.0, clearance=0.3), PROCESSES["fdm"]
     found = expectations(surface, made, certified(duotone), clearance=0.3, core="hollow", process=process)
@@ -100,5 +118,6 @@ def test_expectations_say_what_was_asked_and_made(duotone: Duotone, surface: Cut
     assert found.neck is not None
     assert found.neck.width == necks.min()
     assert found.neck.at == tuple(places[necks.argmin()])
+    assert found.band is None
     assert found.spaces is not None
     assert [part.name for part in found.spaces] == ["gap", "shell"]

@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 import trimesh
 
 from fabricate.checks.check import Check
-from fabricate.checks.expectations import Neck
+from fabricate.checks.expectations import Band, Neck
 from fabricate.checks.facts import Narrowest
-from fabricate.checks.printability import neck_check, part_neck_check, process_gap_check, wall_check
+from fabricate.checks.printability import (
+    band_check,
+    neck_check,
+    part_neck_check,
+    process_gap_check,
+    wall_check,
+)
 from fabricate.checks.walls import Walls, walls
 from fabricate.process import PROCESSES, Process
 from fabricate.solid.part import Part
@@ -87,6 +95,25 @@ def test_necks_are_not_judged_without_all_figures(
     neck: Neck | None, clearance: float | None, process: Process | None
 ) -> None:
     assert neck_check(neck, clearance=clearance, process=process).skipped
+
+
+@every_process
+def test_a_narrow_band_says_how_far_apart_its_rings_would_have_to_be(process: Process) -> None:
+    needed = process.feature_min + 0.3
+    assert band_check(Band("band-2", 1.001 * needed, AT, 0.2), clearance=0.3, process=process).ok
+    narrow = band_check(Band("band-2", needed / 1.2, AT, 0.2), clearance=0.3, process=process)
+    assert (narrow.code, narrow.failed) == ("pattern.band", True)
+    assert "band-2" in narrow.message
+    assert "tiles 1.2 times as large" in narrow.message or "tiles 1.21 times as large" in narrow.message
+    said = re.search(r"at least (0\.\d+) apart there instead of 0\.2", narrow.message)
+    assert said is not None
+    assert 0.24 - 1e-9 <= float(said[1]) < 0.2415
+    assert narrow.where.tolist() == [list(AT)]
+
+
+@pytest.mark.parametrize(("clearance", "process"), [(None, FDM), (0.3, None)])
+def test_bands_are_not_judged_without_all_figures(clearance: float | None, process: Process | None) -> None:
+    assert band_check(Band("band-1", 1.0, AT, 0.2), clearance=clearance, process=process).skipped
 
 
 @every_process

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from fabricate.errors import PrepareError
 from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.mesh.torus import torus
-from fabricate.prepare.density import FEWEST_TILES, finest_tile, neck_share, too_fine
+from fabricate.prepare.density import FEWEST_TILES, check_room, finest_tile, neck_share, too_fine
 from fabricate.process import PROCESSES
 
 arcs = st.floats(0.3, 0.7)
@@ -38,6 +38,21 @@ def test_a_neck_is_the_smaller_distance_between_arcs(arc: float) -> None:
 )
 def test_several_rings_have_the_narrowest_of_necks_and_bands(rings: tuple[float, ...], share: float) -> None:
     assert neck_share(rings) == pytest.approx(share)
+
+
+@pytest.mark.parametrize(
+    ("rings", "words"),
+    [
+        ((0.3,), "the necks of yellow"),
+        ((0.4, 0.7), "the necks of blue"),
+        ((0.4, 0.42, 0.6), r"band-1, 0\.02 of a tile of about 7 mm, where it has to be more than 0\.0306"),
+    ],
+)
+def test_tiles_in_which_the_clearance_leaves_nothing_are_refused(rings: tuple[float, ...], words: str) -> None:
+    with pytest.raises(PrepareError, match=words):
+        check_room(rings, tile_size=7.0, clearance=0.3)
+    check_room(rings, tile_size=30.0, clearance=0.3)
+    check_room(rings, tile_size=7.0, clearance=0.05)
 
 
 def test_rings_that_do_not_increase_leave_no_band() -> None:

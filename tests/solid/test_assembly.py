@@ -108,3 +108,41 @@ def test_it_is_frozen(surface: CutSurface) -> None:
     for array in (made.points, *made.bodies, made.gap, made.shell):
         with pytest.raises(ValueError, match="read-only"):
             array[0, 0] = 0
+
+
+RINGS = (0.36, 0.5, 0.615)
+
+
+@pytest.fixture(scope="module")
+def multitone() -> CutSurface:
+    quads = tiled(sized(torus(around=8, across=4, tube=0.45), size=100), tile_size=20)
+    duotone = grown_duotone(quads, tree="random", seed=3)
+    return fitted_cut(duotone, rings=RINGS, tolerance=0.5, clearance=CLEARANCE)
+
+
+@pytest.mark.parametrize("core", CORES)
+@pytest.mark.parametrize("clearance", [0.0, CLEARANCE])
+def test_all_parts_of_a_multitone_are_closed_and_add_up(multitone: CutSurface, core: Core, clearance: float) -> None:
+    made = built(multitone, clearance=clearance, core=core)
+    assert [part.name for part in made.parts] == ["yellow", "band-1", "band-2", "blue"]
+    for part in (*made.parts, *made.spaces):
+        assert unmatched(part.triangles) == 0
+        assert len(np.unique(part.triangles)) == len(part.points)
+    gap, shell = (volume(part) for part in made.spaces)
+    assert sum(volume(part) for part in made.parts) + gap == pytest.approx(shell, rel=1e-3)
+    assert (gap > 0) == (clearance > 0)
+    assert all(0 < volume(part) < shell for part in made.parts)
+
+
+def test_a_band_s_copies_keep_to_either_side_of_its_middle(multitone: CutSurface) -> None:
+    made, count = built(multitone), len(multitone.points)
+    middles = [half_rays.right[:, -1] for half_rays in multitone.half_rays[:-1]]
+    for band, middle in enumerate(middles, start=1):
+        copy = made.points[2 * band * count :][:count]
+        assert copy[middle] == pytest.approx(multitone.points[middle], rel=1e-6, abs=1e-5)
+        before, after = (
+            np.linalg.norm(copy[curve] - copy[middle], axis=1) for curve in multitone.curves[band - 1 :][:2]
+        )
+        width = np.linalg.norm(np.diff(multitone.points[multitone.curves[band - 1 :][:2]], axis=0)[0], axis=1)
+        assert (before + after < width).all()
+        assert CLEARANCE <= np.median(width - before - after) <= 1.5 * CLEARANCE

@@ -9,7 +9,19 @@ from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.cube import cube
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
-from fabricate.solid.inset import DEPTH_SLOPE, capped_depth, downward, relaxed, retreated, retreating, spread, ways_in
+from fabricate.solid.inset import (
+    DEPTH_SLOPE,
+    SHALLOWEST,
+    STUBBORN,
+    capped_depth,
+    downward,
+    relaxed,
+    retreated,
+    retreating,
+    safe_share,
+    spread,
+    ways_in,
+)
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -176,3 +188,8 @@ def test_the_way_down_goes_in_through_triangles_that_the_normal_leaves(surface: 
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     assert (normals @ tilted[number]).min() < 0.1
     assert (normals @ way[number]).max() <= -0.29
+
+
+def test_the_safe_depth_is_halved_for_stubborn_points_down_to_a_least_share() -> None:
+    times = np.array([0, STUBBORN, STUBBORN + 1, STUBBORN + 2, STUBBORN + 60])
+    assert safe_share(times).tolist() == [1.0, 1.0, 0.5, 0.25, SHALLOWEST]

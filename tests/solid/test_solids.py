@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import igl
 import numpy as np
@@ -29,6 +30,7 @@ from fabricate.solid.part import Part
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
+from fabricate.surface.cut_certificate import cut_certificate
 from fabricate.surface.sizing import sized, tiled
 from fabricate.triangles.crossing import crossing_triangles
 
@@ -270,6 +272,41 @@ def test_every_tree_gives_two_sound_parts(seed: int, arc: float, clearance: floa
     assert tuple(genus(part) for part in found.solids.parts) == (2 * handles[0], 2 * handles[1])
     if clearance > 0.0:
         assert yellow.min_gap(blue, 2 * clearance) >= 0.95 * clearance
+
+
+@pytest.mark.parametrize(
+    ("name", "rings", "clearance", "core"),
+    [
+        ("torus", (0.4, 0.6), 0.3, "hollow"),
+        ("sphere", (0.36, 0.5, 0.615), 0.3, "blue"),
+        ("double torus", (0.38, 0.57), 0.0, "hollow"),
+    ],
+)
+def test_a_multitone_is_as_many_sound_parts_as_it_has_regions(
+    name: str, rings: tuple[float, ...], clearance: float, core: Core
+) -> None:
+    body = BODIES[name]
+    duotone = grown_duotone(tiled(sized(body.mesh, size=2 * body.size), tile_size=24), tree="random", seed=7)
+    surface = fitted_cut(duotone, rings=rings, tolerance=0.5, clearance=clearance)
+    made, certificate = solids(surface, thickness=THICKNESS, clearance=clearance, core=core), cut_certificate(surface)
+    assert certificate.holds
+    bands = len(rings) - 1
+    blue = body.genus if core == "blue" else 2 * certificate.blue.handles
+    assert [genus(part) for part in made.parts] == [0, *bands * [1], blue]
+    assert [crossings(part) for part in made.parts] == (bands + 2) * [0]
+    for first, second in combinations(map(as_manifold, made.parts), 2):
+        assert (first ^ second).volume() == pytest.approx(0.0, abs=1e-6)
+        if clearance > 0.0:
+            assert first.min_gap(second, 2 * clearance) >= 0.95 * clearance
+
+
+def test_a_band_of_which_the_clearance_leaves_nothing_is_refused() -> None:
+    duotone = grown_duotone(tiled(sized(BODIES["torus"].mesh, size=60), tile_size=12), tree="random", seed=7)
+    with pytest.raises(
+        SolidError, match=r"leaves nothing of band-1 .* more than 0\.0\d+ apart there, not 0\.02"
+    ) as caught:
+        fitted_cut(duotone, rings=(0.49, 0.51, 0.6), tolerance=0.5, clearance=0.3)
+    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(

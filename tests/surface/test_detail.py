@@ -137,6 +137,23 @@ def test_a_spike_that_the_smooth_surface_lacks_is_filled() -> None:
     assert (made.points @ direction).max() > 1.4 * RADIUS
 
 
+def test_what_is_missed_comes_nearer_in_more_rounds(monkeypatch: pytest.MonkeyPatch) -> None:
+    onto, smooth = spiked(ball(6), np.array([0.6, 0.0, 0.8]), height=0.8, width=0.12), ball(5)
+    after = carried_onto(smooth, onto)
+    monkeypatch.setattr("fabricate.surface.detail.LATE", ())
+    before = carried_onto(smooth, onto)
+    far, near = (deviation(made.points, smooth.triangles, onto.points, onto.triangles).p999 for made in (before, after))
+    assert near < 0.95 * far
+    assert_sound(after.points, smooth.triangles)
+
+
+def test_where_nothing_is_missed_there_are_no_more_rounds(monkeypatch: pytest.MonkeyPatch) -> None:
+    onto, smooth = bumpy(ball(4), seed=1, height=0.1), ball(4)
+    before = carried_onto(smooth, onto)
+    monkeypatch.setattr("fabricate.surface.detail.LATE", (20, 20))
+    assert (carried_onto(smooth, onto).points == before.points).all()
+
+
 def test_a_deep_narrow_pit_is_followed_without_crossing() -> None:
     onto = spiked(ball(6), np.array([0.0, 0.6, 0.8]), height=-0.5, width=0.15)
     smooth = ball(5)

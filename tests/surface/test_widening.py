@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from crowding import crowded_torus, roomy_torus
@@ -75,3 +77,19 @@ def test_what_cannot_be_had_is_not_asked_for(roomy: QuadMesh) -> None:
     after = widened(roomy, RING, rings=(0.5,), neck=100.0)
     assert necks(after).min() >= necks(roomy).min()
     assert np.median(necks(after)) == pytest.approx(np.median(necks(roomy)), rel=0.2)
+
+
+def test_tiles_that_come_off_the_body_stay_where_they_were(crowded: QuadMesh, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fit that draws every tile that moved off the body, in one half of it, leaves that half alone in the end."""
+    half = crowded.points[:, 0] < 0.0
+
+    def drawn_off(quads: QuadMesh, *_: object) -> QuadMesh:
+        lost = half & (quads.points != crowded.points).any(axis=1)
+        return replace(quads, points=np.where(lost[:, None], 0.5 * crowded.points, quads.points))
+
+    monkeypatch.setattr("fabricate.surface.widening.fitted", drawn_off)
+    before = necks(crowded)
+    after = widened(crowded, RING, rings=(0.5,), neck=0.5 * float(np.median(before)))
+    assert off(after, RING) < off(crowded, RING) + 1.0
+    assert (after.points[half] == crowded.points[half]).all()
+    assert (after.points[~half] != crowded.points[~half]).any()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fabricate.duotone.region_names import region_names
+from fabricate.region_names import region_names
 
 
 def test_bands_are_numbered_from_yellow_to_blue() -> None:
