@@ -12,10 +12,11 @@ from time import perf_counter
 from fabricate.checks.facts import WireFacts
 from fabricate.checks.judge import judged_parts, read_part
 from fabricate.checks.judged_wire import judged_wire
-from fabricate.checks.measured import expectations, mesh_facts, pattern_facts
+from fabricate.checks.measured import chords, expectations, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Check, Report, report_json
 from fabricate.checks.share import share_checks
+from fabricate.checks.shop import most_polygons
 from fabricate.config import Config, FileConfig, PatternConfig, SphereConfig, config_sha256, moved_config, resolved_toml
 from fabricate.config.handles_config import handles_of_yellow
 from fabricate.design.area_share import shared_cut, square_arc
@@ -34,15 +35,17 @@ from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.output.curve_svg import write_curve_svg
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
-from fabricate.output.sculpture import write_sculpture
+from fabricate.output.sculpture import write_parts, write_pictures
 from fabricate.output.stl import write_stl
 from fabricate.picture.line_drawing import line_drawing
+from fabricate.picture.witness_marks import witness_marks
 from fabricate.prepare.density import check_room, finest_tile
 from fabricate.prepare.inspection import Inspection, inspected
 from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES, Process
 from fabricate.solid.detailed import detailed_cut
+from fabricate.solid.polygon_budget import affordable
 from fabricate.solid.settling import fitted_cut, has_room
 from fabricate.solid.solids import solids
 from fabricate.solid.wire import Wire, wire
@@ -127,14 +130,20 @@ def _sculpture(
     design = designed(tiling.quads, _in_place(curve, body, wish, tiling), progress=watch.tell)
     duotone = design.duotone
     watch.begin("cut")
-    surface = _surface(duotone, tiling, config)
+    fitting = affordable(
+        partial(_surface, duotone, tiling, config),
+        tolerance=solid.tolerance,
+        core=solid.core,
+        budget=None if config.process.shop is None else most_polygons(config.process.shop),
+    )
+    surface, coarser = fitting.surface, fitting.tolerance > solid.tolerance
     certificate = cut_certificate(surface)
     watch.begin("solids")
     made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
     bent = _wire(surface, config)
     with complete_folder(out / name) as folder:
         watch.begin("files")
-        paths = write_sculpture(folder, made.parts, list(surface.points[surface.curves]), name=name)
+        paths = write_parts(folder, made.parts, list(surface.points[surface.curves]), name=name)
         _write_curve_files(folder, surface, bent, config, name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
@@ -145,15 +154,23 @@ def _sculpture(
             clearance=solid.clearance,
             core=solid.core,
             process=process,
+            shop=config.process.shop,
         )
         judged = judged_parts([read_part(path) for path in paths], wanted)
         pattern = pattern_facts(design, certificate, surface)
         thread, alone = _judged_wire(folder, bent, process)
+        watch.begin("pictures")
+        write_pictures(folder, made.parts, marks=witness_marks(made.parts, judged.fit.pairs if judged.fit else {}))
         report = Report(
             name=name,
             config_sha256=config_sha256(config),
             versions=_versions(),
-            mesh=mesh_facts(body, replace(tiling, notes=limit + tiling.notes), surface),
+            mesh=mesh_facts(
+                body,
+                replace(tiling, notes=limit + tiling.notes),
+                surface,
+                chords(duotone, surface, asked=solid.tolerance) if coarser else None,
+            ),
             pattern=pattern,
             parts=judged.parts,
             fit=judged.fit,
@@ -252,18 +269,18 @@ def _expected_rings(pattern: PatternConfig) -> tuple[float, ...]:
     return pattern.positions if pattern.area_share is None else (square_arc(pattern.area_share),)
 
 
-def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:
-    """Return the cut surface, with the rings that are asked for or the one that the area share needs."""
-    make, share = partial(_cut, duotone, tiling, config), config.pattern.area_share
+def _surface(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float) -> CutSurface:
+    """Return the cut surface, by a tolerance, mm, with the rings asked for or the one that the area share needs."""
+    make, share = partial(_cut, duotone, tiling, config, tolerance), config.pattern.area_share
     if share is None:
         return make(config.pattern.positions)
     room = partial(has_room, clearance=config.solid.clearance)
     return shared_cut(duotone, share=share, make=make, fits=room)
 
 
-def _cut(duotone: Duotone, tiling: Tiling, config: Config, rings: tuple[float, ...]) -> CutSurface:
+def _cut(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float, rings: tuple[float, ...]) -> CutSurface:
     """Return the cut surface, with the detail of the input where new cells were made for it."""
-    tolerance, clearance = config.solid.tolerance, config.solid.clearance
+    clearance = config.solid.clearance
     if tiling.surface is None or config.prepare.detail == "smooth":
         return fitted_cut(duotone, rings=rings, tolerance=tolerance, clearance=clearance)
     return detailed_cut(duotone, tiling.surface, rings=rings, tolerance=tolerance, clearance=clearance)

@@ -284,7 +284,7 @@ def test_check_notices_a_moved_vertex(copy: Path, capsys: pytest.CaptureFixture[
     assert "FAILED  blue.recorded_volume" not in said
 
 
-@pytest.mark.parametrize("name", ["write_sculpture", "report_json"])
+@pytest.mark.parametrize("name", ["write_parts", "write_pictures", "report_json"])
 def test_nothing_remains_of_a_run_that_fails(
     config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:

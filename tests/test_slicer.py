@@ -135,3 +135,25 @@ def test_a_turned_triangle_is_noticed(made: Path, tmp_path: Path) -> None:
 def test_another_volume_is_noticed(made: Path) -> None:
     volume = recorded(made, "yellow")["volume_mm3"]
     assert slicer_faults(made / "yellow.stl", volume=1.002 * volume) != []
+
+
+def layers(gcode: str) -> list[int]:
+    """Return how many moves extrude in each layer."""
+    return [
+        len(re.findall(r"^G1 X\S+ Y\S+ E\d*\.?\d+", layer, re.MULTILINE)) for layer in gcode.split(";LAYER_CHANGE")[1:]
+    ]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("file", ["yellow.stl", "blue.stl", "pair.3mf"])
+def test_every_layer_of_what_is_sliced_is_printed(made: Path, tmp_path: Path, file: str) -> None:
+    two = ("--nozzle-diameter", "0.4,0.4", "--filament-diameter", "1.75,1.75", "--temperature", "200,200")
+    coarse = ("--layer-height", "0.3", "--fill-density", "0", "--dont-arrange")
+    out = tmp_path / "out.gcode"
+    said = said_by(program("prusa-slicer"), "--export-gcode", *coarse, *two, "-o", str(out), str(made / file))
+    assert "mpty layer" not in said
+    gcode = out.read_text()
+    assert len(layers(gcode)) > 50
+    assert min(layers(gcode)) > 0
+    changes = re.findall(r"^T[01]\b", gcode, re.MULTILINE)
+    assert (changes.count("T0") > 10, changes.count("T1") > 10) == (file == "pair.3mf", file == "pair.3mf")

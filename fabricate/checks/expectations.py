@@ -7,7 +7,9 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import NamedTuple
 
+from fabricate.arrays import Floats
 from fabricate.checks.facts import Verdict, Xyz
+from fabricate.config import ShopConfig
 from fabricate.process import Process
 from fabricate.solid.part import Part
 
@@ -51,12 +53,16 @@ class Expectations:
         Handles of each part, by name; a part that is not in it has no genus expected.
     process : Process or None
         How they will be printed.
+    shop : ShopConfig or None
+        What the print shop accepts.
     neck : Neck or None
         The pattern's narrowest.
     band : Band or None
         The narrowest of a multitone; a duotone has none.
     spaces : Spaces or None
         What the parts leave free, and what they add up to with it.
+    middles : mapping of str to (k, 3) float
+        Places on the mid-line of the joint between two parts, by their names, such as "yellow-blue"; mm.
     verdict : {"captive", "separable", "fused"} or None
         Whether neighbouring parts come apart. Left at None it is "captive", or "fused" where the clearance is 0.
     """
@@ -64,13 +70,16 @@ class Expectations:
     clearance: float | None = None
     genus: Mapping[str, int] = field(default_factory=dict)
     process: Process | None = None
+    shop: ShopConfig | None = None
     neck: Neck | None = None
     band: Band | None = None
     spaces: Spaces | None = None
+    middles: Mapping[str, Floats] = field(default_factory=dict)
     verdict: Verdict | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "genus", MappingProxyType(dict(self.genus)))
+        object.__setattr__(self, "middles", MappingProxyType(dict(self.middles)))
 
     @property
     def expected_verdict(self) -> Verdict:

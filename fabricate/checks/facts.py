@@ -26,20 +26,45 @@ class Spread:
 
 @dataclass(frozen=True)
 class Gap:
-    """The smallest distance between parts, mm, and where it is; no place where they touch on purpose."""
+    """The distance between parts, mm.
+
+    Attributes
+    ----------
+    min : float
+        The smallest one.
+    at : (x, y, z) or None
+        Where it is; no place where parts touch on purpose.
+    queried : float or None
+        The smallest one that distance queries found on their own; None where parts touch or overlap.
+    max : float or None
+        The largest one along the joint's mid-line; None where that is not known.
+    max_at : (x, y, z) or None
+        Where that is.
+    """
 
     min: float
     at: Xyz | None
+    queried: float | None = None
+    max: float | None = None
+    max_at: Xyz | None = None
+
+
+@dataclass(frozen=True)
+class Narrowest:
+    """The smallest of many widths, mm, and where it is."""
+
+    min: float
+    at: Xyz
 
 
 @dataclass(frozen=True)
 class Play:
-    """How far one part can move between its stops, mm, to first order; inf where nothing stops it.
+    """How far one part can move from its seat, mm, to first order; inf where nothing stops it.
 
     Attributes
     ----------
     x, y, z : float
-        Way from one stop to the opposite one along each axis.
+        Way from the seat, where it was modelled, to the farther of the two stops along each axis.
     rx, ry, rz : float
         The same for turning about each axis, as the way of a point as far from the pivot as the part's
         farthest one.
@@ -54,6 +79,22 @@ class Play:
 
 
 @dataclass(frozen=True)
+class Witness:
+    """A few contacts that between them stop every motion of the first part of a pair.
+
+    Attributes
+    ----------
+    points : tuple of (x, y, z)
+        On the first part, mm.
+    normals : tuple of (x, y, z)
+        Unit vectors from there towards the second part.
+    """
+
+    points: tuple[Xyz, ...]
+    normals: tuple[Xyz, ...]
+
+
+@dataclass(frozen=True)
 class Distance:
     """How far places of one surface are from another, mm: mean, what 99.9 % keep, largest, and where that is."""
 
@@ -61,6 +102,15 @@ class Distance:
     p999: float
     max: float
     at: Xyz
+
+
+@dataclass(frozen=True)
+class Chords:
+    """The chord error of triangles, mm: what was asked for, what 99 % of the edges keep, and the largest."""
+
+    asked: float
+    p99: float
+    max: float
 
 
 @dataclass(frozen=True)
@@ -77,6 +127,8 @@ class MeshFacts:
         How often each repair was made.
     notes : tuple of str
         What a user should know of repair and cells.
+    chord_mm : Chords or None
+        How far the triangles are from the smooth surface, where they are coarser than was asked for.
     distance_mm : Distance or None
         From the input to the finished outside, where new cells were made for it.
     """
@@ -87,6 +139,7 @@ class MeshFacts:
     size_mm: Xyz
     repairs: Mapping[str, int]
     notes: tuple[str, ...]
+    chord_mm: Chords | None
     distance_mm: Distance | None
 
 
@@ -165,6 +218,8 @@ class PartFacts:
         Pairs of triangles that cross.
     wall_mm : Spread or None
         Wall thickness; the median is weighted by area. None where no two faces are opposite each other.
+    neck_mm : Narrowest or None
+        The narrowest place between two walls that face other parts. None where there is none, or no other part.
     """
 
     file: str
@@ -176,6 +231,7 @@ class PartFacts:
     watertight: bool
     self_intersections: int
     wall_mm: Spread | None
+    neck_mm: Narrowest | None
 
 
 @dataclass(frozen=True)
@@ -205,15 +261,18 @@ class PairFacts:
     overlap_mm3 : float or None
         Volume that they have in common.
     verdict : {"captive", "separable", "fused"} or None
-        See `fabricate.checks.mobility`; None as well where other parts lie between them.
+        See `fabricate.checks.holding`; None as well where other parts lie between them.
     play_mm : Play or None
         How far the first part moves in the second; None for fused parts too.
+    witness : Witness or None
+        What proves that captive parts are.
     """
 
     gap_mm: Gap | None
     overlap_mm3: float | None
     verdict: Verdict | None
     play_mm: Play | None
+    witness: Witness | None
 
 
 @dataclass(frozen=True)
@@ -229,10 +288,12 @@ class FitFacts:
     overlap_mm3 : float or None
         Volume that parts have in common.
     verdict : {"captive", "separable", "fused"} or None
-        See `fabricate.checks.mobility`. Of several parts, "captive" where each pair of neighbours is, which is enough
+        See `fabricate.checks.holding`. Of several parts, "captive" where each pair of neighbours is, which is enough
         for all of them to be caught in each other.
     play_mm : Play or None
         How far the first of two parts moves in the second; None for fused parts, and for more than two.
+    witness : Witness or None
+        What proves that two parts are captive; of more than two, each pair has its own.
     pairs : mapping of str to PairFacts
         The same of each pair by the parts' names, such as "yellow-blue".
     """
@@ -242,4 +303,5 @@ class FitFacts:
     overlap_mm3: float | None
     verdict: Verdict | None
     play_mm: Play | None
+    witness: Witness | None
     pairs: Mapping[str, PairFacts]

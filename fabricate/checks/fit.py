@@ -20,6 +20,12 @@ OVERLAP_SHARE = 1e-6
 GAP_SHARE = 0.95
 """Smallest gap that is accepted, as a share of the clearance that was asked for."""
 
+WIDEST = 1.3
+"""Largest gap along the joint's mid-line that is accepted, in clearances: beyond, parts rattle and seams show."""
+
+QUERIED_SHARE = 1.02
+"""Distance queries confirm a gap when they find places that are not farther apart by more than this factor."""
+
 VOLUME_SHARE = 1e-3
 """Largest difference between the sum of all volumes and the whole, as a share of the whole."""
 
@@ -61,6 +67,12 @@ def gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: floa
         touch = "touch" if gap.min == 0.0 else "may touch"
         message = f"{names} {touch} on purpose: the clearance is 0, so only their overlap counts"
         return Check(code, ok=False, skipped=True, message=message)
+    if gap.queried is not None and gap.queried > QUERIED_SHARE * gap.min:
+        message = (
+            f"Manifold finds a gap of {gap.min:.4g} mm between {names}, which distance queries could not confirm: "
+            f"the nearest places they found are {gap.queried:.4g} mm apart"
+        )
+        return Check(code, ok=False, skipped=not gap.min < GAP_SHARE * clearance, message=message, where=where)
     ok = not gap.min < GAP_SHARE * clearance
     spot = "" if ok or gap.at is None else f", at {place(gap.at)}"
     return Check(
@@ -69,6 +81,26 @@ def gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: floa
         message=f"the gap between {names} must be at least {GAP_SHARE * clearance:.4g} mm, {GAP_SHARE:.0%} "
         f"of the clearance of {clearance:.4g} mm, and the smallest is {gap.min:.4g} mm{spot}",
         where=where,
+    )
+
+
+def widest_gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: float | None) -> Check:
+    """Check that the gap is nowhere far too wide along the joint's mid-line; points at the widest place."""
+    names = f"{first.name} and {second.name}"
+    if not clearance or gap.max is None or gap.max_at is None:
+        missing = "the joint's mid-line is" if clearance else "a clearance is"
+        message = f"how wide the gap between {names} becomes was not judged, because {missing} not known"
+        if clearance == 0.0:
+            message = f"{names} touch on purpose: the clearance is 0, so there is no gap to become wide"
+        return Check(code, ok=False, skipped=True, message=message)
+    ok = not gap.max > WIDEST * clearance
+    spot = "" if ok else f", at {place(gap.max_at)}"
+    return Check(
+        code,
+        ok=ok,
+        message=f"the gap between {names} must be at most {WIDEST * clearance:.4g} mm along the joint's mid-line, "
+        f"{WIDEST:g} times the clearance, and the widest is {gap.max:.4g} mm{spot}",
+        where=np.array([gap.max_at]),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from fabricate.arrays import Floats, frozen
-from fabricate.checks.facts import Gap
+from fabricate.checks.facts import Gap, Xyz
 from fabricate.triangles.adjacency import undirected_edges
 from fabricate.triangles.edge_pieces import EdgePieces
 from fabricate.triangles.search_tree import SearchTree
@@ -70,7 +70,8 @@ def smallest_gap(spacing: Spacing, first: Manifold, second: Manifold, *, clearan
     It is exact up to 1.2 clearances, or 0.6 mm if the clearance is not known or 0; beyond that it is the
     smallest distance of a vertex. The place is midway between the parts, where their distance is within 1 %
     of the gap, or the nearest to that which a bounded search finds. Parts that overlap have the gap 0,
-    somewhere near the overlap. Parts that touch with clearance 0 do so everywhere, and no place is named.
+    somewhere near the overlap. Parts that touch with clearance 0 do so everywhere, and no place is named. What distance
+    queries alone have found, at vertices and on edges, is `queried`: an upper bound that owes nothing to Manifold.
     """
     spot = min(_vertex_spots(spacing), key=lambda each: each.distance)
     if spot.distance == 0.0:
@@ -78,10 +79,25 @@ def smallest_gap(spacing: Spacing, first: Manifold, second: Manifold, *, clearan
     search = min(spot.distance, SEARCH * clearance if clearance else UNKNOWN_SEARCH)
     exact = first.min_gap(second, search)
     if exact >= search:
-        return Gap(spot.distance, _midway(spot))
+        return Gap(spot.distance, _midway(spot), queried=spot.distance)
     if exact > 0.0:
         spot = min(_edge_spots(spacing, spot, exact), key=lambda each: each.distance)
-    return Gap(exact, _midway(spot))
+    return Gap(min(exact, spot.distance), _midway(spot), queried=spot.distance)
+
+
+def widest_gap(spacing: Spacing, middles: Floats) -> tuple[float, Xyz] | None:
+    """Return the largest distance between two parts along the mid-line of their joint, mm, and where it is.
+
+    `middles`, (k, 3), are places on the mid-line. The gap at each of them is how far the nearest place on the first
+    part is from the second one.
+    """
+    if not len(middles):
+        return None
+    wall = spacing.first.nearest(middles).point
+    across = spacing.second.nearest(wall)
+    widest = int(across.distance.argmax())
+    x, y, z = (float(value) for value in 0.5 * (wall[widest] + across.point[widest]))
+    return float(across.distance[widest]), (x, y, z)
 
 
 def _vertex_spots(spacing: Spacing) -> tuple[_Spot, _Spot]:

@@ -12,26 +12,34 @@ The codes of all checks, which other programs may rely on; PART stands for the n
     PART.self_intersections  no triangles cross (exact)
     PART.manifold            Manifold takes it as a solid of the same volume
     PART.wall                its thinnest wall is thick enough for the process
+    PART.neck                its narrowest neck, between two walls that face other parts, is wide enough too
     FIT.overlap              two parts have no volume in common
     FIT.gap                  the smallest gap between them is at least 95 % of the clearance
-    FIT.mobility             they are captive, separable or fused, as they should be; of more than two parts, those
-                             that face each other
+    FIT.gap_max              along the joint's mid-line it is at most 1.3 times the clearance,
+    FIT.mobility             and they are captive, separable or fused, as they should be: of more than two parts,
+                             these two are judged of those that face each other
     fit.whole                volumes of the parts and the gap add up to the uncut shell
     fit.process_gap          the process keeps the clearance open
     pattern.neck             necks are wide enough for the process
     pattern.band             so are the bands of a multitone
 
+    shop.polygons            the print shop accepts the number of triangles,
+    shop.file                the size of the files,
+    shop.box                 the bounding box
+    shop.wall.PART           and the thinnest wall of each part
+
 FIT is "fit" for two parts, and "fit.FIRST-SECOND" with their names for each pair of more. A single part has
-no fit.* checks but `fit.process_gap`, and only a pattern that is known to have bands has `pattern.band`. What is not
-known or could not be measured is skipped, not left out. A run that was asked for an area share adds
-`pattern.area_share` (see `checks.share`), and one with a wire the PART.* checks of "wire".
+no fit.* checks but `fit.process_gap`, only a pattern that is known to have bands has `pattern.band`, and there are
+shop.* checks only of the limits that a shop has. What is not known or could not be measured is skipped, not left out.
+A run that was asked for an area share adds `pattern.area_share` (see `checks.share`), and one with a wire the PART.*
+checks of "wire".
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
@@ -39,10 +47,10 @@ from typing import NamedTuple
 import numpy as np
 from manifold3d import Manifold
 
-from fabricate.arrays import Floats, Indices
+from fabricate.arrays import Floats, Indices, Mask
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Expectations
-from fabricate.checks.facts import FitFacts, PartFacts
+from fabricate.checks.facts import FitFacts, Narrowest, PartFacts
 from fabricate.checks.geometry import (
     area,
     as_manifold,
@@ -52,15 +60,18 @@ from fabricate.checks.geometry import (
     signed_volume,
     volume_check,
 )
+from fabricate.checks.necks import narrowest_neck
 from fabricate.checks.pairs import Fit, Solid, fit
-from fabricate.checks.printability import band_check, neck_check, process_gap_check, wall_check
+from fabricate.checks.printability import band_check, neck_check, part_neck_check, process_gap_check, wall_check
+from fabricate.checks.shop import shop_checks
 from fabricate.checks.topology import topology
-from fabricate.checks.walls import walls
+from fabricate.checks.walls import Walls, walls
 from fabricate.errors import ReadError
 from fabricate.formats.limits import ReadLimits
 from fabricate.formats.reading import read_mesh
 from fabricate.solid.part import Part
 from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.search_tree import SearchTree
 
 PART_LIMITS = ReadLimits(max_bytes=4 << 30, max_faces=20_000_000)
 """More than the finest tessellation that is made gives a part, in text as well."""
@@ -86,6 +97,8 @@ class JudgedAlone(NamedTuple):
 class _JudgedPart:
     part: Part
     manifold: Manifold
+    tree: SearchTree
+    walls: Walls
     facts: PartFacts
     checks: tuple[Check, ...]
 
@@ -136,13 +149,18 @@ def judged_parts(parts: Sequence[Part], expectations: Expectations) -> Judgement
     judged = [_judged_part(part, expectations) for part in parts]
     checks = [check for each in judged for check in each.checks]
     together = _judged_together(judged, expectations) if len(judged) > 1 else None
+    necks = _necks(judged, together.joints) if together else {}
+    checks += [part_neck_check(name, neck, process=expectations.process) for name, neck in necks.items()]
     checks += together.checks if together else ()
     clearance, process = expectations.clearance, expectations.process
     checks.append(process_gap_check(clearance, process=process))
     checks.append(neck_check(expectations.neck, clearance=clearance, process=process))
     if expectations.band is not None:
         checks.append(band_check(expectations.band, clearance=clearance, process=process))
-    facts = MappingProxyType({each.part.name: each.facts for each in judged})
+    facts = MappingProxyType(
+        {each.part.name: replace(each.facts, neck_mm=necks.get(each.part.name)) for each in judged}
+    )
+    checks += shop_checks(parts, facts, {each.part.name: each.walls for each in judged}, expectations.shop)
     return Judgement(facts, together.facts if together else None, tuple(checks))
 
 
@@ -162,7 +180,9 @@ def _check_names(parts: Sequence[Part]) -> None:
 
 def _judged_part(part: Part, expectations: Expectations) -> _JudgedPart:
     connected = topology(part, expected_genus=expectations.genus.get(part.name))
-    volume, manifold, measured = signed_volume(part), as_manifold(part), walls(part)
+    volume, manifold = signed_volume(part), as_manifold(part)
+    tree = SearchTree.of(part.points, part.triangles)
+    measured = walls(part, tree)
     crossing = crossing_triangles(part.points, part.triangles)
     facts = PartFacts(
         file=f"{part.name}.stl",
@@ -174,6 +194,7 @@ def _judged_part(part: Part, expectations: Expectations) -> _JudgedPart:
         watertight=connected.watertight,
         self_intersections=len(crossing),
         wall_mm=measured.spread,
+        neck_mm=None,
     )
     checks = (
         *connected.checks,
@@ -182,9 +203,17 @@ def _judged_part(part: Part, expectations: Expectations) -> _JudgedPart:
         manifold_check(part, manifold, volume=volume),
         wall_check(part, measured, process=expectations.process),
     )
-    return _JudgedPart(part, manifold, facts, checks)
+    return _JudgedPart(part, manifold, tree, measured, facts, checks)
 
 
 def _judged_together(judged: Sequence[_JudgedPart], expectations: Expectations) -> Fit:
-    solids = {each.part.name: Solid.of(each.part, each.manifold) for each in judged if is_solid(each.manifold)}
+    solids = {each.part.name: Solid(each.part, each.manifold, each.tree) for each in judged if is_solid(each.manifold)}
     return fit([each.part for each in judged], solids, expectations)
+
+
+def _necks(judged: Sequence[_JudgedPart], joints: Mapping[str, Mask]) -> dict[str, Narrowest | None]:
+    """Return the narrowest neck of each part by its name; None where it has none or nothing is known of its joints."""
+    return {
+        each.part.name: narrowest_neck(each.walls, joints[each.part.name]) if each.part.name in joints else None
+        for each in judged
+    }

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
 
 from fabricate.arrays import Floats
 from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
-from fabricate.checks.facts import Distance, MeshFacts, PatternFacts, Spread, Xyz
+from fabricate.checks.facts import Chords, Distance, MeshFacts, PatternFacts, Spread, Xyz
+from fabricate.config import ShopConfig
 from fabricate.design.area_share import area_shares
 from fabricate.design.designed import Design
 from fabricate.duotone.certificate import Certificate, RegionFacts
+from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.tile_locks import TileLocks
 from fabricate.mesh.closed import genus
 from fabricate.prepare.prepared import Prepared
@@ -23,13 +26,15 @@ from fabricate.region_names import region_names
 from fabricate.solid.assembly import Assembly, Core
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.deviation import deviation
+from fabricate.surface.limit import LimitSurface
 from fabricate.surface.neck import band_widths, tile_necks
+from fabricate.surface.resolution import SHARE_WITHIN, chord_errors
 from fabricate.surface.sizing import typical_side
 from fabricate.surface.tiling import Tiling
 
 
-def mesh_facts(body: Prepared, tiling: Tiling, surface: CutSurface) -> MeshFacts:
-    """Return what is known of the mesh that was divided, and of the finished outer surface."""
+def mesh_facts(body: Prepared, tiling: Tiling, surface: CutSurface, chords: Chords | None = None) -> MeshFacts:
+    """Return what is known of the mesh that was divided, and of the finished outer surface with its chord error."""
     x, y, z = (float(side) for side in np.ptp(surface.points, axis=0))
     return MeshFacts(
         vertices=len(body.mesh.points),
@@ -38,8 +43,17 @@ def mesh_facts(body: Prepared, tiling: Tiling, surface: CutSurface) -> MeshFacts
         size_mm=(x, y, z),
         repairs=MappingProxyType({action.name: action.count for action in body.actions}),
         notes=body.notes + tiling.notes,
+        chord_mm=chords,
         distance_mm=None if tiling.surface is None else _distance(tiling.surface, surface),
     )
+
+
+def chords(duotone: Duotone, surface: CutSurface, *, asked: float) -> Chords:
+    """Measure the chord error of a surface that should have kept `asked`, mm."""
+    resolution = surface.rays.shape[1] - 1
+    limit = LimitSurface.of(duotone.quads)
+    errors = chord_errors(duotone, limit, rings=surface.rings.tolist(), resolution=resolution)
+    return Chords(asked, float(np.quantile(errors, SHARE_WITHIN)), float(errors.max()))
 
 
 def _distance(whole: TriangleMesh, surface: CutSurface) -> Distance:
@@ -95,6 +109,7 @@ def expectations(
     clearance: float,
     core: Core,
     process: Process | None = None,
+    shop: ShopConfig | None = None,
 ) -> Expectations:
     """Return what the parts of these solids should be, when they are read back from their files."""
     gap, shell = solids.spaces
@@ -102,9 +117,16 @@ def expectations(
         clearance=clearance,
         genus=expected_genus({name: region.handles for name, region in _named(certificate)}, core=core),
         process=process,
+        shop=shop,
         neck=Neck(*_narrowest(tile_necks(surface))),
         band=_narrowest_band(surface),
         spaces=Spaces(gap, shell),
+        middles={
+            f"{first}-{second}": solids.middles(curve, region)
+            for region, (curve, (first, second)) in enumerate(
+                zip(surface.curves, pairwise(region_names(len(surface.curves) + 1)), strict=True)
+            )
+        },
     )
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import combinations
 from types import MappingProxyType
 
@@ -12,14 +12,19 @@ from manifold3d import Manifold
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from fabricate.arrays import Mask
 from fabricate.checks.check import Check
+from fabricate.checks.contacts import REACH, facing_triangles
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Gap, PairFacts, Verdict
-from fabricate.checks.fit import gap_check, overlap_check, whole_check
-from fabricate.checks.gap import Spacing, smallest_gap
-from fabricate.checks.mobility import REACH, Mobility, mobility, mobility_check
+from fabricate.checks.fit import gap_check, overlap_check, whole_check, widest_gap_check
+from fabricate.checks.gap import Spacing, smallest_gap, widest_gap
+from fabricate.checks.holding import Holding, holding, holding_check
 from fabricate.solid.part import Part
 from fabricate.triangles.search_tree import SearchTree
+
+UNKNOWN = PairFacts(gap_mm=None, overlap_mm3=None, verdict=None, play_mm=None, witness=None)
+"""Facts of two parts that could not be measured."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,18 +35,14 @@ class Solid:
     manifold: Manifold
     tree: SearchTree
 
-    @classmethod
-    def of(cls, part: Part, manifold: Manifold) -> Solid:
-        """Build the search tree of a part that Manifold has taken."""
-        return cls(part, manifold, SearchTree.of(part.points, part.triangles))
-
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """How parts go together, and the checks of it."""
+    """How parts go together, the checks of it, and which triangles of each part, by name, face another one."""
 
     facts: FitFacts
     checks: tuple[Check, ...]
+    joints: Mapping[str, Mask]
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +51,7 @@ class _Pair:
 
     facts: PairFacts
     checks: tuple[Check, ...]
+    joints: tuple[tuple[str, Mask], ...] = ()
 
     @property
     def measured(self) -> bool:
@@ -75,9 +77,10 @@ def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expect
         overlap_mm3=sum(pair.overlap_mm3 or 0.0 for pair in measured) if measured else None,
         verdict=_verdict(len(parts), list(pairs.values())),
         play_mm=measured[0].play_mm if len(parts) == 2 and measured else None,
+        witness=measured[0].witness if len(parts) == 2 and measured else None,
         pairs=MappingProxyType({name: pair.facts for name, pair in pairs.items()}),
     )
-    return Fit(facts, (*checks, _whole(parts, expectations)))
+    return Fit(facts, (*checks, _whole(parts, expectations)), _joints(pairs.values()))
 
 
 def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, *, only_pair: bool) -> _Pair:
@@ -85,37 +88,65 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
     common = first.manifold ^ second.manifold
     spacing = Spacing.between(first.tree, second.tree)
     gap = smallest_gap(spacing, first.manifold, second.manifold, clearance=clearance)
+    middles = expectations.middles.get(f"{first.part.name}-{second.part.name}")
+    widest = None if middles is None else widest_gap(spacing, middles)
+    gap = gap if widest is None else replace(gap, max=widest[0], max_at=widest[1])
     smaller = min(first.manifold.volume(), second.manifold.volume())
     apart = not only_pair and clearance is not None and gap.min > REACH * clearance
-    found = None if apart else _found_mobility(spacing, gap, clearance)
+    found = None if apart else _holding(spacing, first, second, gap, clearance)
     checks = [
         overlap_check(f"{prefix}.overlap", first.part, second.part, common, smaller_volume=smaller),
         gap_check(f"{prefix}.gap", first.part, second.part, gap, clearance=clearance),
     ]
     if not apart:
+        checks.append(widest_gap_check(f"{prefix}.gap_max", first.part, second.part, gap, clearance=clearance))
         checks.append(_moving(f"{prefix}.mobility", first.part, second.part, found, expectations))
-    verdict, play = found or (None, None)
-    return _Pair(PairFacts(gap_mm=gap, overlap_mm3=common.volume(), verdict=verdict, play_mm=play), tuple(checks))
+    facts = PairFacts(
+        gap_mm=gap,
+        overlap_mm3=common.volume(),
+        verdict=found.verdict if found else None,
+        play_mm=found.play if found else None,
+        witness=found.witness_facts if found else None,
+    )
+    return _Pair(facts, tuple(checks), () if clearance is None else _facing(first, second, spacing, clearance))
+
+
+def _facing(first: Solid, second: Solid, spacing: Spacing, clearance: float) -> tuple[tuple[str, Mask], ...]:
+    """Return which triangles of either part face the other, by its name."""
+    one, other, to_second, to_first = spacing.first, spacing.second, spacing.to_second, spacing.to_first
+    return (
+        (first.part.name, facing_triangles(one, other, to_second, clearance=clearance)),
+        (second.part.name, facing_triangles(other, one, to_first, clearance=clearance)),
+    )
+
+
+def _joints(pairs: Iterable[_Pair]) -> Mapping[str, Mask]:
+    """Return which triangles of each part face any other one."""
+    joints: dict[str, Mask] = {}
+    for name, facing in (each for pair in pairs for each in pair.joints):
+        joints[name] = joints[name] | facing if name in joints else facing
+    return MappingProxyType(joints)
 
 
 def _unmeasured(prefix: str, first: Part, second: Part, *, spoiler: Part) -> _Pair:
     message = f"{first.name} and {second.name} were not measured, because {spoiler.name} is no solid"
     checks = (
-        Check(f"{prefix}.{what}", ok=False, skipped=True, message=message) for what in ("overlap", "gap", "mobility")
+        Check(f"{prefix}.{what}", ok=False, skipped=True, message=message)
+        for what in ("overlap", "gap", "gap_max", "mobility")
     )
-    return _Pair(PairFacts(gap_mm=None, overlap_mm3=None, verdict=None, play_mm=None), tuple(checks))
+    return _Pair(UNKNOWN, tuple(checks))
 
 
-def _found_mobility(spacing: Spacing, gap: Gap, clearance: float | None) -> Mobility | None:
-    """Return the mobility of neighbouring parts, or None where it can't be told."""
+def _holding(spacing: Spacing, first: Solid, second: Solid, gap: Gap, clearance: float | None) -> Holding | None:
+    """Return how neighbouring parts hold each other, or None where the clearance is not known."""
     if clearance == 0.0 or gap.min == 0.0:
-        return Mobility("fused", None)
-    return None if clearance is None else mobility(spacing, clearance=clearance)
+        return Holding("fused")
+    return None if clearance is None else holding(spacing, first.manifold, second.manifold, clearance=clearance)
 
 
-def _moving(code: str, first: Part, second: Part, found: Mobility | None, expectations: Expectations) -> Check:
+def _moving(code: str, first: Part, second: Part, found: Holding | None, expectations: Expectations) -> Check:
     if found is not None:
-        return mobility_check(code, first, second, found, expected=expectations.expected_verdict)
+        return holding_check(code, first, second, found, expected=expectations.expected_verdict)
     message = f"how {first.name} and {second.name} move was not judged, because the clearance is not known"
     return Check(code, ok=False, skipped=True, message=message)
 

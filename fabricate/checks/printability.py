@@ -12,6 +12,7 @@ import numpy as np
 
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Band, Neck
+from fabricate.checks.facts import Narrowest
 from fabricate.checks.walls import Walls
 from fabricate.checks.wording import place
 from fabricate.process import Process
@@ -36,6 +37,27 @@ def wall_check(part: Part, walls: Walls, *, process: Process | None) -> Check:
         message=f"walls of {part.name} must be at least {process.wall_min:g} mm thick for {process.name}, "
         f"and the thinnest is {spread.min:.4g} mm{rest}",
         where=where[:1] if ok else where[walls.thickness < process.wall_min],
+    )
+
+
+def part_neck_check(name: str, neck: Narrowest | None, *, process: Process | None) -> Check:
+    """Check that the narrowest neck of a finished part is at least the process's smallest feature."""
+    code = f"{name}.neck"
+    if neck is None:
+        message = f"{name} has no neck that could be measured between two walls of its joints"
+        return Check(code, ok=False, skipped=True, message=message)
+    where = np.array([neck.at])
+    if process is None:
+        message = f"the narrowest neck of {name} is {neck.min:.4g} mm wide; no process was named"
+        return Check(code, ok=False, skipped=True, message=message, where=where)
+    ok = not neck.min < process.feature_min
+    spot = "" if ok else f", at {place(neck.at)}"
+    return Check(
+        code,
+        ok=ok,
+        message=f"necks of {name} must be at least {process.feature_min:g} mm wide for {process.name}, "
+        f"and the narrowest is {neck.min:.4g} mm{spot}",
+        where=where,
     )
 
 

@@ -89,6 +89,7 @@ def _rechecked_folder(folder: Path, clearance: float | None) -> Recheck:
             clearance=config.solid.clearance if clearance is None else clearance,
             genus=expected_genus(recorded.pattern.handles, core=config.solid.core),
             process=PROCESSES[config.process.name],
+            shop=config.process.shop,
         ),
     )
     moved = tuple(

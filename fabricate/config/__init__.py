@@ -18,6 +18,7 @@ from fabricate.config.pattern_config import PatternConfig
 from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
 from fabricate.config.resolved import config_sha256, moved_config, resolved_toml
+from fabricate.config.shop_config import ShopConfig
 from fabricate.config.solid_config import SolidConfig
 from fabricate.config.source_config import (
     CubeConfig,
@@ -48,6 +49,7 @@ __all__ = [
     "PatternConfig",
     "PrepareConfig",
     "ProcessConfig",
+    "ShopConfig",
     "SideConfig",
     "SolidConfig",
     "SourceConfig",

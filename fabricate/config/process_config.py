@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from pydantic import Field
+
 from fabricate.config.section import Section
+from fabricate.config.shop_config import ShopConfig
 from fabricate.process import PROCESSES, Process, ProcessName
 from fabricate.units import format_length
 
@@ -15,6 +18,8 @@ class ProcessConfig(Section):
 
     name: ProcessName = "fdm"
     """Printing process."""
+    shop: ShopConfig | None = Field(default=None, examples=[{"polygons": 1_000_000, "file_mb": 64.0}])
+    """What the print shop accepts: parts are made to fit, or it is said why they do not; no limits unless given."""
 
 
 PROCESS_DEFAULTS: Mapping[str, str] = MappingProxyType({"thickness": "wall_default", "clearance": "gap_default"})

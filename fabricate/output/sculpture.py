@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from fabricate.arrays import Floats
@@ -11,12 +11,27 @@ from fabricate.output.glb import write_glb
 from fabricate.output.png import write_png
 from fabricate.output.stl import write_stl
 from fabricate.output.three_mf import write_3mf
-from fabricate.picture.preview import preview_image
+from fabricate.picture.preview import NO_MARKS, preview_image
 from fabricate.solid.part import Part
 
 
 def write_sculpture(folder: Path, parts: Sequence[Part], curves: Sequence[Floats], *, name: str) -> tuple[Path, ...]:
-    """Write the parts as NAME.stl each, pair.3mf, preview.glb, preview.png and curve.ply; return the STL paths.
+    """Write the parts and the pictures of them; return the paths of the STL files.
+
+    See `write_parts` and `write_pictures`.
+
+    Raises
+    ------
+    OutputError
+        If a file cannot be written.
+    """
+    paths = write_parts(folder, parts, curves, name=name)
+    write_pictures(folder, parts)
+    return paths
+
+
+def write_parts(folder: Path, parts: Sequence[Part], curves: Sequence[Floats], *, name: str) -> tuple[Path, ...]:
+    """Write the parts as NAME.stl each, pair.3mf and curve.ply; return the paths of the STL files.
 
     `curves` are the points of each closed curve, (c, 3) mm. `name` is the sculpture's, as programs show it.
 
@@ -30,6 +45,16 @@ def write_sculpture(folder: Path, parts: Sequence[Part], curves: Sequence[Floats
         write_stl(path, part)
     write_3mf(folder / "pair.3mf", parts, name=name)
     write_curves(folder / "curve.ply", curves)
-    write_glb(folder / "preview.glb", parts)
-    write_png(folder / "preview.png", preview_image(parts))
     return paths
+
+
+def write_pictures(folder: Path, parts: Sequence[Part], *, marks: Mapping[str, Part] = NO_MARKS) -> None:
+    """Write preview.glb and preview.png, with the marks on each part, by its name.
+
+    Raises
+    ------
+    OutputError
+        If a file cannot be written.
+    """
+    write_glb(folder / "preview.glb", [*parts, *marks.values()])
+    write_png(folder / "preview.png", preview_image(parts, marks=marks))

@@ -6,6 +6,7 @@ import re
 import zipfile
 from collections.abc import Sequence
 from io import BytesIO
+from itertools import accumulate
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -33,17 +34,18 @@ Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
 </Relationships>
 """
 )
-MATERIALS = 1  # resource id; mesh objects follow from 2 on, the object that holds them is the last
+MATERIALS, OBJECT = 1, 2  # resource ids
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date a zip can hold: the same bytes every time
 
 
 def write_3mf(path: Path, parts: Sequence[Part], *, name: str) -> None:
-    """Write parts as one 3MF model in millimetres, in the places they have to each other.
+    """Write parts as one 3MF object of several parts, in millimetres, in the places they have to each other.
 
-    Each part is a mesh object of its own with its name and colour; one object called `name` holds them
-    as components and is the only thing to build, so that readers have to keep them together. It stands
-    on the build plate in the positive octant, as the specification advises. For PrusaSlicer, whose
-    readers ignore core materials, the first part goes to extruder 1, the second to 2 and so on.
+    All parts are one mesh object called `name`, the only thing to build: no reader can move them apart. Each part
+    is a named set of its triangles with a named colour. The object stands on the build plate in the positive
+    octant, as the specification advises. PrusaSlicer finds one object of several parts, as it writes them itself;
+    its readers ignore core materials, and the first part goes to extruder 1, the second to 2 and so on. An object of
+    `<components>` would become several objects there, each dropped to the bed by itself.
 
     The XML is written here and not by lib3mf: that scales coordinates in single precision before it
     prints them, and moves one in seven by a unit in the last place. Here a reader gets
@@ -65,7 +67,7 @@ def write_3mf(path: Path, parts: Sequence[Part], *, name: str) -> None:
             "[Content_Types].xml": CONTENT_TYPES,
             "_rels/.rels": RELATIONSHIPS,
             "3D/3dmodel.model": _model(parts, name),
-            "Metadata/Slic3r_PE_model.config": _prusaslicer_config(parts),
+            "Metadata/Slic3r_PE_model.config": _prusaslicer_config(parts, name),
         }.items():
             entry = zipfile.ZipInfo(file, EPOCH)
             entry.compress_type = zipfile.ZIP_DEFLATED
@@ -74,20 +76,33 @@ def write_3mf(path: Path, parts: Sequence[Part], *, name: str) -> None:
 
 
 def _model(parts: Sequence[Part], name: str) -> str:
-    ids = range(MATERIALS + 1, MATERIALS + 1 + len(parts))
-    assembly = MATERIALS + 1 + len(parts)
-    components = "".join(f'   <component objectid="{part_id}"/>\n' for part_id in ids)
+    starts = accumulate((len(part.points) for part in parts), initial=0)
+    triangles = "".join(_triangles(part, k, start) for k, (part, start) in enumerate(zip(parts, starts, strict=False)))
+    sets = "".join(
+        f'     <t:triangleset name={_attribute(part.name)} identifier="part-{number}">\n'
+        f"{_members(first, last)}     </t:triangleset>\n"
+        for number, (part, (first, last)) in enumerate(zip(parts, _ranges(parts), strict=True), start=1)
+    )
     return f"""{XML}<model unit="millimeter" xml:lang="en-US" \
-xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" \
+xmlns:t="http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07" \
+xmlns:slic3rpe="http://schemas.slic3r.org/3mf/2017/06">
+ <metadata name="slic3rpe:Version3mf">1</metadata>
  <resources>
-{_materials(parts)}{"".join(map(_mesh_object, parts, ids))}\
-  <object id="{assembly}" type="model" name={_attribute(name)}>
-   <components>
-{components}   </components>
+{_materials(parts)}\
+  <object id="{OBJECT}" type="model" name={_attribute(name)} pid="{MATERIALS}" pindex="0">
+   <mesh>
+    <vertices>
+{"".join(map(_vertices, parts))}    </vertices>
+    <triangles>
+{triangles}    </triangles>
+    <t:trianglesets>
+{sets}    </t:trianglesets>
+   </mesh>
   </object>
  </resources>
  <build>
-  <item objectid="{assembly}" transform="1 0 0 0 1 0 0 0 1 {_to_build_plate(parts)}"/>
+  <item objectid="{OBJECT}" transform="1 0 0 0 1 0 0 0 1 {_to_build_plate(parts)}"/>
  </build>
 </model>
 """
@@ -102,20 +117,28 @@ def _materials(parts: Sequence[Part]) -> str:
     return f'  <basematerials id="{MATERIALS}">\n{bases}  </basematerials>\n'
 
 
-def _mesh_object(part: Part, part_id: int) -> str:
+def _vertices(part: Part) -> str:
     # One formatting operation per list: nine digits are enough to find each float32 again.
-    vertices = '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n' * len(part.points)
-    triangles = '<triangle v1="%d" v2="%d" v3="%d"/>\n' * len(part.triangles)
-    material = f'pid="{MATERIALS}" pindex="{part_id - MATERIALS - 1}"'
-    return f"""  <object id="{part_id}" type="model" name={_attribute(part.name)} {material}>
-   <mesh>
-    <vertices>
-{vertices % tuple(part.points.ravel().tolist())}    </vertices>
-    <triangles>
-{triangles % tuple(part.triangles.ravel().tolist())}    </triangles>
-   </mesh>
-  </object>
-"""
+    text = '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n' * len(part.points)
+    return text % tuple(part.points.ravel().tolist())
+
+
+def _triangles(part: Part, number: int, start: int) -> str:
+    """Return the triangles of a part in its colour; its points begin at number `start`."""
+    colour = f' pid="{MATERIALS}" p1="{number}"' if number else ""  # the object's own is that of the first part
+    text = f'<triangle v1="%d" v2="%d" v3="%d"{colour}/>\n' * len(part.triangles)
+    return text % tuple((part.triangles + start).ravel().tolist())
+
+
+def _members(first: int, last: int) -> str:
+    # One element each: lib3mf does not read the ranges that the extension has as well.
+    return '<t:ref index="%d"/>\n' * (last + 1 - first) % tuple(range(first, last + 1))
+
+
+def _ranges(parts: Sequence[Part]) -> list[tuple[int, int]]:
+    """Return the numbers of each part's first and last triangle."""
+    ends = [*accumulate(len(part.triangles) for part in parts)]
+    return [(end - len(part.triangles), end - 1) for part, end in zip(parts, ends, strict=True)]
 
 
 def _to_build_plate(parts: Sequence[Part]) -> str:
@@ -124,22 +147,23 @@ def _to_build_plate(parts: Sequence[Part]) -> str:
     return " ".join(f"{-value + 0.0:.9g}" for value in low)
 
 
-def _prusaslicer_config(parts: Sequence[Part]) -> str:
-    """Which extruder prints which triangles of which object; without the ranges objects load empty."""
-    objects = "".join(
-        f""" <object id="{number + MATERIALS}" instances_count="1">
-  <metadata type="object" key="name" value={_attribute(part.name)}/>
-  <metadata type="object" key="extruder" value="{number}"/>
-  <volume firstid="0" lastid="{len(part.triangles) - 1}">
+def _prusaslicer_config(parts: Sequence[Part], name: str) -> str:
+    """Which extruder prints which triangles of the object."""
+    volumes = "".join(
+        f"""  <volume firstid="{first}" lastid="{last}">
    <metadata type="volume" key="name" value={_attribute(part.name)}/>
    <metadata type="volume" key="volume_type" value="ModelPart"/>
    <metadata type="volume" key="extruder" value="{number}"/>
   </volume>
- </object>
 """
-        for number, part in enumerate(parts, start=1)
+        for number, (part, (first, last)) in enumerate(zip(parts, _ranges(parts), strict=True), start=1)
     )
-    return f"{XML}<config>\n{objects}</config>\n"
+    return f"""{XML}<config>
+ <object id="{OBJECT}" instances_count="1">
+  <metadata type="object" key="name" value={_attribute(name)}/>
+{volumes} </object>
+</config>
+"""
 
 
 def _attribute(text: str) -> str:

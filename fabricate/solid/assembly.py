@@ -83,6 +83,13 @@ class Assembly:
         """The gap and the uncut shell, as closed meshes."""
         return self._part("gap", self.gap), self._part("shell", self.shell)
 
+    def middles(self, curve: Indices, region: int) -> Floats:
+        """Return the mid-line of the joint along a curve, (c,) int, between a region and the next one, (c, 3) mm."""
+        n = self.surface_points
+        blocks = np.arange(2 * region, 2 * region + 4) if len(self.gap) else np.arange(2)
+        middles: Floats = self.points[n * blocks[:, None] + curve].mean(axis=0)
+        return middles
+
     def _part(self, name: str, triangles: Indices) -> Part:
         used = np.zeros(len(self.points), dtype=bool)
         used[triangles] = True

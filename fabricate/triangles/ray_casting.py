@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -18,14 +19,34 @@ class Hits(NamedTuple):
     distance: Floats
 
 
-def first_hits(points: Floats, triangles: Indices, origins: Floats, directions: Floats) -> Hits:
-    """Return the first hit of each ray, either side of a triangle counting; single precision.
+@dataclass(frozen=True, eq=False)
+class RayTarget:
+    """A mesh that rays are sent to, with its search tree built once."""
 
-    `directions`, (r, 3), must be unit vectors for the distance to be in mm.
-    """
-    scene = EmbreeScene()
-    # the mesh registers itself with the scene
-    TriangleMesh(scene, np.ascontiguousarray(points[triangles], dtype=np.float32))
+    scene: EmbreeScene
+
+    @classmethod
+    def of(cls, points: Floats, triangles: Indices) -> RayTarget:
+        """Build the tree of triangles, (m, 3) int, on points, (n, 3) float mm."""
+        scene = EmbreeScene()
+        # the mesh registers itself with the scene
+        TriangleMesh(scene, np.ascontiguousarray(points[triangles], dtype=np.float32))
+        return cls(scene)
+
+    def first_hits(self, origins: Floats, directions: Floats) -> Hits:
+        """Return the first hit of each ray, either side of a triangle counting; single precision.
+
+        `directions`, (r, 3), must be unit vectors for the distance to be in mm.
+        """
+        return _hits(self.scene, origins, directions)
+
+
+def first_hits(points: Floats, triangles: Indices, origins: Floats, directions: Floats) -> Hits:
+    """Return the first hit of each ray with a mesh that is asked once; see `RayTarget`."""
+    return RayTarget.of(points, triangles).first_hits(origins, directions)
+
+
+def _hits(scene: EmbreeScene, origins: Floats, directions: Floats) -> Hits:
     found = scene.run(
         np.ascontiguousarray(origins, dtype=np.float32),
         np.ascontiguousarray(directions, dtype=np.float32),

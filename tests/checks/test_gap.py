@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from fabricate.arrays import Floats
 from fabricate.checks.facts import Gap
-from fabricate.checks.gap import Spacing, smallest_gap
+from fabricate.checks.gap import Spacing, smallest_gap, widest_gap
 from fabricate.checks.geometry import as_manifold
 from fabricate.solid.part import Part
 from fabricate.triangles.search_tree import SearchTree
@@ -170,3 +170,21 @@ def test_vertex_distances_are_measured_both_ways() -> None:
     assert spacing.to_second.min() == pytest.approx(1.5)
     assert spacing.to_first.min() > 4.0
     assert gap_between(small, large, clearance=2.0).min == pytest.approx(1.5)
+
+
+def test_the_widest_place_of_a_gap_is_found_from_its_mid_line() -> None:
+    lower = part_of(slab(cells=16, below=-2, top=0))
+    upper, dent = bumped(slab(cells=16, below=0.3, top=2), near=(3.2, -4.1, 0.3), height=0.2)
+    middles = np.column_stack([np.linspace(-7, 7, 701), np.full(701, dent[1]), np.full(701, 0.15)])
+    spacing = Spacing.between(tree_of(upper), tree_of(lower))
+    found = widest_gap(spacing, middles)
+    assert found is not None
+    assert found[0] == pytest.approx(0.5, abs=0.03)  # to the side of the dent its wall is a little nearer
+    assert np.linalg.norm(np.array(found[1]) - [dent[0], dent[1], 0.25]) < 0.1
+    assert widest_gap(spacing, middles[:0]) is None
+
+
+def test_what_distance_queries_find_is_said_beside_the_gap() -> None:
+    first, second = part_of(trimesh.creation.box()), part_of(trimesh.creation.box(), shift=(1.25, 0, 0))
+    assert gap_between(first, second, clearance=0.3).queried == pytest.approx(0.25, abs=1e-6)
+    assert gap_between(first, moved(second, (3.0, 0, 0)), clearance=0.3).queried == pytest.approx(3.25, abs=1e-6)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import trimesh
 
-from fabricate.arrays import Floats, Indices
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.geometry import as_manifold
 from fabricate.checks.pairs import Solid, fit
@@ -20,24 +19,21 @@ def box(name: str, x: float) -> Part:
 
 
 def solids(*parts: Part) -> dict[str, Solid]:
-    return {part.name: Solid.of(part, as_manifold(part)) for part in parts}
+    return {part.name: Solid(part, as_manifold(part), SearchTree.of(part.points, part.triangles)) for part in parts}
 
 
-def test_each_tree_is_built_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    built = []
-    original = SearchTree.of
-
-    def counted(points: Floats, triangles: Indices) -> SearchTree:
-        built.append(float(points[:, 0].mean()))
-        return original(points, triangles)
-
-    monkeypatch.setattr(SearchTree, "of", counted)
+def test_every_pair_of_three_is_judged() -> None:
     parts = [box(name, 1.3 * k) for k, name in enumerate("abc")]
     made = fit(parts, solids(*parts), Expectations(clearance=0.3))
-    assert built == pytest.approx([0.0, 1.3, 2.6])
     assert [check.code for check in made.checks if check.ok] == [
         "fit.a-b.overlap", "fit.a-b.gap", "fit.a-c.overlap", "fit.a-c.gap", "fit.b-c.overlap", "fit.b-c.gap",
     ]  # fmt: skip
+
+
+def test_what_faces_any_neighbour_belongs_to_a_joint() -> None:
+    parts = [box(name, 1.3 * k) for k, name in enumerate("abc")]
+    made = fit(parts, solids(*parts), Expectations(clearance=0.3))
+    assert {name: int(joint.sum()) for name, joint in made.joints.items()} == {"a": 2, "b": 4, "c": 2}
 
 
 def test_what_is_no_solid_is_named() -> None:

@@ -10,10 +10,18 @@ import trimesh
 
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Band, Neck
-from fabricate.checks.printability import band_check, neck_check, process_gap_check, wall_check
-from fabricate.checks.walls import walls
+from fabricate.checks.facts import Narrowest
+from fabricate.checks.printability import (
+    band_check,
+    neck_check,
+    part_neck_check,
+    process_gap_check,
+    wall_check,
+)
+from fabricate.checks.walls import Walls, walls
 from fabricate.process import PROCESSES, Process
 from fabricate.solid.part import Part
+from fabricate.triangles.search_tree import SearchTree
 
 FDM = PROCESSES["fdm"]
 AT = (1.0, 2.0, 3.0)
@@ -21,10 +29,14 @@ AT = (1.0, 2.0, 3.0)
 every_process = pytest.mark.parametrize("process", PROCESSES.values(), ids=PROCESSES)
 
 
+def measured(part: Part) -> Walls:
+    return walls(part, SearchTree.of(part.points, part.triangles))
+
+
 def wall(thickness: float, process: Process | None) -> Check:
     mesh = trimesh.creation.box((10, 10, thickness))
     part = Part("red", mesh.vertices, mesh.faces)
-    return wall_check(part, walls(part), process=process)
+    return wall_check(part, measured(part), process=process)
 
 
 @every_process
@@ -35,7 +47,6 @@ def test_walls_are_held_against_the_process(process: Process) -> None:
     assert thin.code == "red.wall"
     assert f"{process.wall_min:g} mm" in thin.message
     assert np.allclose(np.abs(thin.where[:, 2]), 0.99 * process.wall_min / 2, rtol=1e-6)
-    assert len(thin.where) == 4  # two triangles on top, two below
 
 
 def test_without_a_process_the_wall_is_said_but_not_judged() -> None:
@@ -47,7 +58,23 @@ def test_without_a_process_the_wall_is_said_but_not_judged() -> None:
 def test_without_opposite_faces_there_is_no_wall_to_judge() -> None:
     corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], dtype=float)
     part = Part("red", corners, np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]))
-    assert wall_check(part, walls(part), process=FDM).skipped
+    assert wall_check(part, measured(part), process=FDM).skipped
+
+
+@every_process
+def test_necks_of_finished_parts_are_held_against_the_process(process: Process) -> None:
+    wide = part_neck_check("red", Narrowest(process.feature_min, AT), process=process)
+    assert wide.ok
+    assert wide.code == "red.neck"
+    narrow = part_neck_check("red", Narrowest(0.9999 * process.feature_min, AT), process=process)
+    assert narrow.failed
+    assert narrow.where.tolist() == [list(AT)]
+    assert "(1, 2, 3)" in narrow.message
+
+
+def test_necks_that_are_not_known_are_not_judged() -> None:
+    assert part_neck_check("red", None, process=FDM).skipped
+    assert part_neck_check("red", Narrowest(0.1, AT), process=None).skipped
 
 
 @every_process

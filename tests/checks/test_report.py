@@ -21,6 +21,7 @@ from fabricate.checks.facts import (
     PatternFacts,
     Play,
     Spread,
+    Witness,
 )
 from fabricate.checks.report import Report, report_json
 from fabricate.prepare.tile_quality import TileQuality
@@ -28,6 +29,7 @@ from fabricate.prepare.tile_quality import TileQuality
 PASSED = Check("red.closed", ok=True, message="closed")
 SKIPPED = Check("fit.gap", ok=False, skipped=True, message="not known")
 FAILED = Check("red.volume", ok=False, message="inside out", where=np.array([[1.23456789, 2.0, -3.0]]))
+WITNESS = Witness(((1.0, 2.0, 3.0),), ((0.0, 0.0, 1.0),))
 PART = PartFacts(
     file="red.stl",
     triangles=12,
@@ -38,6 +40,7 @@ PART = PartFacts(
     watertight=True,
     self_intersections=0,
     wall_mm=Spread(1.0, 1.5),
+    neck_mm=None,
 )
 
 
@@ -52,7 +55,7 @@ def report(
         name="torus",
         config_sha256="abc",
         versions={"fabricate": "0.1.0", "numpy": "2"},
-        mesh=MeshFacts(8, 6, 0, (10.0, 20.0, 30.0), {"faces flipped": 2}, (), None),
+        mesh=MeshFacts(8, 6, 0, (10.0, 20.0, 30.0), {"faces flipped": 2}, (), None, None),
         pattern=PatternFacts(
             tiles=24,
             tile_size_mm=7.0,
@@ -67,7 +70,7 @@ def report(
             band_mm={},
         ),
         parts={"red": PART},
-        fit=FitFacts(0.3, gap, 0.0, "captive", play, {"red-blue": PairFacts(gap, 0.0, "captive", None)}),
+        fit=FitFacts(0.3, gap, 0.0, "captive", play, WITNESS, {"red-blue": PairFacts(gap, 0.0, "captive", None, None)}),
         checks=checks,
         seconds={"read": seconds},
     )
@@ -81,13 +84,15 @@ def content(made: Report) -> Any:
 
 
 def test_keys_are_those_of_the_contract() -> None:
-    found = content(report(gap=Gap(0.29, (1.0, 2.0, 3.0)), play=Play(0.6, 0.6, 0.6, 1.0, 2.0, 3.0)))
+    found = content(
+        report(gap=Gap(0.29, (1.0, 2.0, 3.0), 0.2901, 0.31, (4.0, 5.0, 6.0)), play=Play(0.6, 0.6, 0.6, 1.0, 2.0, 3.0))
+    )
     assert list(found) == [
         "name", "ok", "config_sha256", "versions", "mesh", "pattern", "parts", "fit", "wire", "checks", "seconds",
     ]  # fmt: skip
     assert found["mesh"] == {
         "vertices": 8, "faces": 6, "genus": 0, "size_mm": [10, 20, 30],
-        "repairs": {"faces flipped": 2}, "notes": [], "distance_mm": None,
+        "repairs": {"faces flipped": 2}, "notes": [], "chord_mm": None, "distance_mm": None,
     }  # fmt: skip
     assert set(found["pattern"]) >= {
         "tiles", "curves", "regions", "curve_length_mm", "arc", "area_share", "handles", "neck_mm",
@@ -97,20 +102,22 @@ def test_keys_are_those_of_the_contract() -> None:
     assert found["pattern"]["neck_mm"] == {"min": 1.1, "median": 2.2}
     assert list(found["parts"]["red"]) == [
         "file", "triangles", "volume_mm3", "area_mm2", "genus", "components", "watertight",
-        "self_intersections", "wall_mm",
+        "self_intersections", "wall_mm", "neck_mm",
     ]  # fmt: skip
     assert found["fit"] == {
         "clearance_mm": 0.3,
-        "gap_mm": {"min": 0.29, "at": [1, 2, 3]},
+        "gap_mm": {"min": 0.29, "at": [1, 2, 3], "queried": 0.2901, "max": 0.31, "max_at": [4, 5, 6]},
         "overlap_mm3": 0,
         "verdict": "captive",
         "play_mm": {"x": 0.6, "y": 0.6, "z": 0.6, "rx": 1, "ry": 2, "rz": 3},
+        "witness": {"points": [[1, 2, 3]], "normals": [[0, 0, 1]]},
         "pairs": {
             "red-blue": {
-                "gap_mm": {"min": 0.29, "at": [1, 2, 3]},
+                "gap_mm": {"min": 0.29, "at": [1, 2, 3], "queried": 0.2901, "max": 0.31, "max_at": [4, 5, 6]},
                 "overlap_mm3": 0,
                 "verdict": "captive",
                 "play_mm": None,
+                "witness": None,
             }
         },
     }
@@ -133,7 +140,7 @@ def test_checks_are_written_with_their_places() -> None:
 def test_numbers_that_json_has_no_word_for_become_null(number: float) -> None:
     found = content(report(seconds=number, gap=Gap(number, None), play=Play(0.6, 0.6, number, 1, 1, 1)))
     assert found["seconds"] == {"read": None}
-    assert found["fit"]["gap_mm"] == {"min": None, "at": None}
+    assert found["fit"]["gap_mm"] == {"min": None, "at": None, "queried": None, "max": None, "max_at": None}
     assert found["fit"]["play_mm"]["z"] is None
 
 

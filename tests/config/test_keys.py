@@ -43,7 +43,7 @@ def test_a_key_with_one_letter_too_many_is_recognised(dotted: str, data: st.Data
         ("THICKNESS", "solid", "; did you mean solid.thickness?"),
         ("thickness", "source", "; did you mean solid.thickness?"),
         ("thickness", "sold", "; did you mean solid.thickness?"),
-        ("xyz", "process", "; known here: process.name"),
+        ("xyz", "process", "; known here: process.name, process.shop"),
     ],
 )
 def test_keys_are_looked_for_here_and_then_everywhere(key: str, section: str, hint: str) -> None:

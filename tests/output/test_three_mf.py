@@ -40,7 +40,7 @@ def model_xml(file: Path) -> ElementTree.Element:
         return ElementTree.fromstring(archive.read("3D/3dmodel.model"))  # noqa: S314
 
 
-def test_the_strict_reader_finds_closed_oriented_meshes_with_exact_coordinates(file: Path) -> None:
+def test_the_strict_reader_finds_one_closed_oriented_mesh_with_exact_coordinates(file: Path) -> None:
     model = lib3mf.get_wrapper().CreateModel()
     reader = model.QueryReader("3mf")
     reader.SetStrictModeActive(True)
@@ -48,16 +48,20 @@ def test_the_strict_reader_finds_closed_oriented_meshes_with_exact_coordinates(f
     assert reader.GetWarningCount() == 0
     assert model.GetUnit() == lib3mf.ModelUnit.MilliMeter
     meshes = model.GetMeshObjects()
-    for part in PARTS:
-        assert meshes.MoveNext()
-        mesh = meshes.GetCurrentMeshObject()
-        assert mesh.GetName() == part.name
-        assert mesh.IsManifoldAndOriented()
-        points = np.array([list(vertex.Coordinates) for vertex in mesh.GetVertices()])
-        np.testing.assert_array_equal(points, part.points)
-        triangles = np.array([list(triangle.Indices) for triangle in mesh.GetTriangleIndices()])
-        np.testing.assert_array_equal(triangles, part.triangles)
+    assert meshes.MoveNext()
+    mesh = meshes.GetCurrentMeshObject()
+    assert mesh.GetName() == "first & last"
+    assert mesh.IsManifoldAndOriented()
     assert not meshes.MoveNext()
+    points = np.array([list(vertex.Coordinates) for vertex in mesh.GetVertices()])
+    triangles = np.array([list(triangle.Indices) for triangle in mesh.GetTriangleIndices()])
+    for number, part in enumerate(PARTS):
+        named = mesh.GetTriangleSet(number)
+        assert named.GetName() == part.name
+        own = triangles[list(named.GetTriangleList())]
+        np.testing.assert_array_equal(points[own], part.points[part.triangles])
+        assert set(own.ravel()).isdisjoint(np.delete(triangles, list(named.GetTriangleList()), axis=0).ravel())
+    assert mesh.GetTriangleSetCount() == len(PARTS)
 
 
 def test_the_strict_reader_refuses_a_mesh_with_a_hole(tmp_path: Path) -> None:
@@ -70,17 +74,13 @@ def test_the_strict_reader_refuses_a_mesh_with_a_hole(tmp_path: Path) -> None:
     assert not meshes.GetCurrentMeshObject().IsManifoldAndOriented()
 
 
-def test_one_object_of_components_is_the_only_thing_to_build(file: Path) -> None:
+def test_one_object_is_the_only_thing_to_build(file: Path) -> None:
     root = model_xml(file)
     assert root.get("unit") == "millimeter"
-    *meshes, assembly = root.findall(f"{CORE}resources/{CORE}object")
-    assert [mesh.get("name") for mesh in meshes] == ["yellow", "blue"]
-    assert assembly.get("name") == "first & last"
-    components = assembly.findall(f"{CORE}components/{CORE}component")
-    assert [part.get("objectid") for part in components] == [mesh.get("id") for mesh in meshes]
-    assert all(part.get("transform") is None for part in components)
+    (whole,) = root.findall(f"{CORE}resources/{CORE}object")
+    assert whole.get("name") == "first & last"
     (item,) = root.findall(f"{CORE}build/{CORE}item")
-    assert item.get("objectid") == assembly.get("id")
+    assert item.get("objectid") == whole.get("id")
 
 
 def test_the_assembly_stands_on_the_build_plate_unturned(file: Path) -> None:
@@ -95,25 +95,31 @@ def test_each_part_has_its_colour(file: Path) -> None:
     root = model_xml(file)
     (group,) = root.findall(f"{CORE}resources/{CORE}basematerials")
     bases = group.findall(f"{CORE}base")
-    *meshes, _ = root.findall(f"{CORE}resources/{CORE}object")
-    for mesh, colour in zip(meshes, part_colours(["yellow", "blue"]), strict=True):
-        assert mesh.get("pid") == group.get("id")
-        base = bases[int(mesh.get("pindex", ""))]
-        assert base.get("name") == mesh.get("name")
-        assert base.get("displaycolor") == "#{:02X}{:02X}{:02X}".format(*colour)
+    assert [base.get("name") for base in bases] == ["yellow", "blue"]
+    colours = part_colours(["yellow", "blue"])
+    assert [base.get("displaycolor") for base in bases] == ["#{:02X}{:02X}{:02X}".format(*each) for each in colours]
+    (whole,) = root.findall(f"{CORE}resources/{CORE}object")
+    own = (whole.get("pid"), whole.get("pindex"))
+    found = [
+        (triangle.get("pid", own[0]), triangle.get("p1", own[1]))
+        for triangle in whole.findall(f"{CORE}mesh/{CORE}triangles/{CORE}triangle")
+    ]
+    counts = [len(part.triangles) for part in PARTS]
+    assert found == [(group.get("id"), str(k)) for k, count in enumerate(counts) for _ in range(count)]
 
 
 def test_the_slicer_configuration_gives_all_triangles_of_each_part_their_own_extruder(file: Path) -> None:
     with zipfile.ZipFile(file) as archive:
         config = ElementTree.fromstring(archive.read("Metadata/Slic3r_PE_model.config"))  # noqa: S314
-    ids = [item.get("id") for item in model_xml(file).findall(f"{CORE}resources/{CORE}object")]
-    for number, (part, entry) in enumerate(zip(PARTS, config.findall("object"), strict=True), start=1):
-        assert entry.get("id") == ids[number - 1]
-        (volume,) = entry.findall("volume")
-        assert volume.get("firstid") == "0"
-        assert volume.get("lastid") == str(len(part.triangles) - 1)
-        (extruder,) = [data for data in volume.findall("metadata") if data.get("key") == "extruder"]
-        assert extruder.get("value") == str(number)
+    (whole,) = model_xml(file).findall(f"{CORE}resources/{CORE}object")
+    (entry,) = config.findall("object")
+    assert entry.get("id") == whole.get("id")
+    first = 0
+    for number, (part, volume) in enumerate(zip(PARTS, entry.findall("volume"), strict=True), start=1):
+        assert (volume.get("firstid"), volume.get("lastid")) == (str(first), str(first + len(part.triangles) - 1))
+        told = {data.get("key"): data.get("value") for data in volume.findall("metadata")}
+        assert (told["name"], told["extruder"]) == (part.name, str(number))
+        first += len(part.triangles)
 
 
 def test_the_archive_is_sound_without_dates_and_the_second_file_is_the_same(file: Path, tmp_path: Path) -> None:
@@ -135,8 +141,8 @@ def test_parts_are_untouched(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ['"<&>"', "Grüße, 世界", "tab\tnew\nline", "bell\x07", "half\udc80"])
 def test_any_name_gives_sound_xml(tmp_path: Path, name: str) -> None:
     write_3mf(tmp_path / "pair.3mf", PARTS, name=name)
-    *_, assembly = model_xml(tmp_path / "pair.3mf").findall(f"{CORE}resources/{CORE}object")
-    assert assembly.get("name") == name.replace("\x07", "?").replace("\udc80", "?")
+    (whole,) = model_xml(tmp_path / "pair.3mf").findall(f"{CORE}resources/{CORE}object")
+    assert whole.get("name") == name.replace("\x07", "?").replace("\udc80", "?")
 
 
 @pytest.mark.parametrize("parts", [(), (Part("empty", np.zeros((0, 3)), np.zeros((0, 3))),)])
@@ -154,22 +160,38 @@ def slicer(*arguments: str) -> str:
 
 
 @pytest.mark.slicer
-def test_a_slicer_finds_both_parts_in_their_places_and_nothing_to_repair(file: Path) -> None:
+def test_a_slicer_finds_one_object_of_two_parts_in_their_places_and_nothing_to_repair(file: Path) -> None:
     info = slicer("--info", str(file))
-    assert info.count("manifold = yes") == 2
+    assert info.count("manifold = yes") == 1
+    assert re.search(r"^number_of_parts = *2$", info, re.MULTILINE)
     for repair in ("open_edges", "facets_reversed", "facets_removed", "edges_fixed"):
         assert repair not in info
-    found = [[float(x) for x in re.findall(rf"{key} = (.*)", info)] for key in ("min_x", "min_y", "min_z")]
-    lows = np.array([part.points.min(axis=0) for part in PARTS])
-    np.testing.assert_allclose(np.diff(np.transpose(found), axis=0), np.diff(lows, axis=0), atol=1e-4)
+    sizes = [float(size) for size in re.findall(r"size_[xyz] = (.*)", info)]
+    points = np.concatenate([part.points for part in PARTS])
+    np.testing.assert_allclose(sizes, np.ptp(points, axis=0), atol=1e-4)
 
 
 @pytest.mark.slicer
 @pytest.mark.slow
-def test_a_slicer_prints_the_parts_with_two_extruders(file: Path, tmp_path: Path) -> None:
+def test_a_slicer_prints_each_part_with_its_own_extruder_at_its_own_height(file: Path, tmp_path: Path) -> None:
     two = ("--nozzle-diameter", "0.4,0.4", "--filament-diameter", "1.75,1.75", "--temperature", "200,200")
     out = tmp_path / "out.gcode"
-    slicer("--export-gcode", "--dont-arrange", *two, "-o", str(out), str(file))
-    tools = re.findall(r"^(T[01])\b", out.read_text(), flags=re.MULTILINE)
-    assert tools.count("T0") > 1
-    assert tools.count("T1") > 1
+    slicer("--export-gcode", "--dont-arrange", "--skirts", "0", *two, "-o", str(out), str(file))
+    heights = extruded_heights(out.read_text())
+    low = min(part.points[:, 2].min() for part in PARTS)
+    for part, tool in zip(PARTS, ("T0", "T1"), strict=True):
+        assert heights[tool][0] == pytest.approx(part.points[:, 2].min() - low, abs=0.7)  # a layer, and the first one
+        assert heights[tool][1] == pytest.approx(part.points[:, 2].max() - low, abs=0.7)
+
+
+def extruded_heights(gcode: str) -> dict[str, tuple[float, float]]:
+    """Return the lowest and highest z at which each tool extrudes on the way, mm."""
+    tool, z, found = "T0", 0.0, dict[str, list[float]]()
+    for line in gcode.splitlines():
+        if re.match(r"T[01]\b", line):
+            tool = line[:2]
+        if height := re.match(r"G1 Z([\d.]+)", line):
+            z = float(height[1])
+        if re.match(r"G1 X\S+ Y\S+ E\d*\.?\d+", line):
+            found.setdefault(tool, []).append(z)
+    return {tool: (min(heights), max(heights)) for tool, heights in found.items()}

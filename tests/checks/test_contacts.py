@@ -1,0 +1,52 @@
+"""Contacts: walls that face each other, and the point that stays when a part turns."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from joints import GAP, ball, case, half_balls, spacing
+
+from fabricate.arrays import Floats
+from fabricate.checks.contacts import contacts, facing_triangles, joint_pivot
+
+
+def test_contacts_face_each_other_at_the_clearance() -> None:
+    met = contacts(spacing(ball(10.0), case(10.0 + GAP)), clearance=GAP)
+    assert len(met.gaps) > 1000
+    assert met.gaps == pytest.approx(GAP, rel=0.01)
+    outward = np.einsum("ij,ij->i", met.points, met.normals)
+    assert (outward > 0.95 * np.linalg.norm(met.points, axis=1)).all()
+
+
+def test_the_pivot_of_a_ball_is_its_centre() -> None:
+    centre = np.array([8.0, -3.0, 5.0])
+    inside, outside = ball(10.0, (8.0, -3.0, 5.0)), case(10.0 + GAP, shift=(8.0, -3.0, 5.0))
+    met = contacts(spacing(outside, inside), clearance=GAP)
+    assert np.linalg.norm(joint_pivot(met, np.zeros(3)) - centre) < 1e-3
+
+
+def test_the_pivot_of_planes_stays_as_high_as_the_centroid() -> None:
+    met = contacts(spacing(*half_balls()), clearance=GAP)
+    centroid: Floats = np.array([1.0, 2.0, 9.0])
+    assert joint_pivot(met, centroid) == pytest.approx([*met.points[:, :2].mean(axis=0), 9.0])
+
+
+def test_without_contacts_the_pivot_is_the_centroid() -> None:
+    met = contacts(spacing(ball(5.0), ball(5.0, (30.0, 0.0, 0.0))), clearance=GAP)
+    assert len(met.gaps) == 0
+    assert joint_pivot(met, np.ones(3)).tolist() == [1, 1, 1]
+
+
+def test_triangles_that_face_the_other_part_are_those_of_the_joint() -> None:
+    inside, outside = ball(10.0), case(10.0 + GAP)
+    measured = spacing(inside, outside)
+    one = facing_triangles(measured.first, measured.second, measured.to_second, clearance=GAP)
+    other = facing_triangles(measured.second, measured.first, measured.to_first, clearance=GAP)
+    assert one.all()
+    assert other.tolist() == [False] * 12 + [True] * len(inside.triangles)
+
+
+def test_without_clearance_the_shared_faces_are_the_joint() -> None:
+    measured = spacing(ball(10.0), case(10.0))
+    other = facing_triangles(measured.second, measured.first, measured.to_first, clearance=0.0)
+    assert other.tolist() == [False] * 12 + [True] * (len(other) - 12)
