@@ -43,7 +43,7 @@ seed = 7
 
 [solid]
 thickness = "2 mm"
-tolerance = "0.3 mm"
+tolerance = "0.15 mm"
 """
 FILES = {
     *("yellow.stl", "blue.stl", "pair.3mf", "preview.png", "preview.glb"),
@@ -107,7 +107,9 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
         *("name", "ok", "config_sha256", "versions", "mesh"),
         *("pattern", "parts", "fit", "wire", "checks", "seconds"),
     }
-    assert set(report["mesh"]) == {"vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm"}
+    assert set(report["mesh"]) == {
+        *("vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm", "chord_mm"),
+    }
     assert set(report["pattern"]) == {
         *("tiles", "tile_size_mm", "tile_quality", "curves", "regions", "curve_length_mm", "arc"),
         *("area_share", "handles", "neck_mm", "band_mm", "alignment", "locked", "objectives", "notes"),
@@ -119,11 +121,11 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
     for part in report["parts"].values():
         assert set(part) == {
             *("file", "triangles", "volume_mm3", "area_mm2", "genus"),
-            *("components", "watertight", "self_intersections", "wall_mm"),
+            *("components", "watertight", "self_intersections", "wall_mm", "neck_mm"),
         }
         assert set(part["wall_mm"]) == {"min", "median"}
     assert set(report["fit"]) == {"clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm", "pairs"}
-    assert set(report["fit"]["gap_mm"]) == {"min", "at"}
+    assert set(report["fit"]["gap_mm"]) == {"min", "at", "queried", "max", "max_at"}
     assert set(report["fit"]["play_mm"]) == {"x", "y", "z", "rx", "ry", "rz"}
     assert all(set(check) == {"code", "ok", "skipped", "message", "where"} for check in report["checks"])
 
@@ -174,7 +176,7 @@ def test_an_area_share_is_met_and_its_arc_reported(config: Path, tmp_path: Path)
 def with_curve(config: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder of a run that was asked for a wire and two drawings."""
     out = tmp_path_factory.mktemp("curve")
-    assert run(config, out, "curve.wire=2mm", 'curve.views=["front", "top"]', "solid.tolerance=0.2mm").ok
+    assert run(config, out, "curve.wire=2mm", 'curve.views=["front", "top"]').ok
     return out / "small"
 
 
@@ -234,7 +236,7 @@ def test_check_passes_what_run_made(copy: Path) -> None:
 def test_a_multitone_is_made_proved_and_checked(
     config: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    sizes = ("source.size=100mm", "pattern.tile_size=20mm", "solid.tolerance=0.5mm")
+    sizes = ("source.size=100mm", "pattern.tile_size=20mm", "solid.tolerance=0.2mm")
     report = run(config, tmp_path, 'pattern.rings="four"', *sizes)
     names = ["yellow", "band-1", "band-2", "blue"]
     folder = tmp_path / "small"
@@ -445,7 +447,7 @@ def test_a_field_of_the_file_and_locks_make_a_pair(tmp_path: Path, monkeypatch: 
 
 def failed(report: Report, *, with_printability: bool) -> list[str]:
     """Return the sentences of failed checks; walls and necks are made for the intended tile size only."""
-    of_the_process = (".wall", "pattern.neck", "pattern.band", "fit.process_gap")
+    of_the_process = (".wall", ".neck", "pattern.band", "fit.process_gap")
     return [
         check.message
         for check in report.checks
