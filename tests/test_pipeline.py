@@ -124,7 +124,9 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
             *("components", "watertight", "self_intersections", "wall_mm", "neck_mm"),
         }
         assert set(part["wall_mm"]) == {"min", "median"}
-    assert set(report["fit"]) == {"clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm", "pairs"}
+    assert set(report["fit"]) == {
+        *("clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm", "witness", "pairs"),
+    }
     assert set(report["fit"]["gap_mm"]) == {"min", "at", "queried", "max", "max_at"}
     assert set(report["fit"]["play_mm"]) == {"x", "y", "z", "rx", "ry", "rz"}
     assert all(set(check) == {"code", "ok", "skipped", "message", "where"} for check in report["checks"])
@@ -186,7 +188,7 @@ def test_wire_and_drawings_appear_where_asked_for(with_curve: Path) -> None:
     wire = json.loads((with_curve / "report.json").read_text())["wire"]
     assert set(wire) == {
         *("file", "triangles", "volume_mm3", "area_mm2", "genus", "components", "watertight"),
-        *("self_intersections", "wall_mm", "diameter_mm", "length_mm"),
+        *("self_intersections", "wall_mm", "neck_mm", "diameter_mm", "length_mm"),
     }
     assert (wire["file"], wire["genus"], wire["self_intersections"], wire["diameter_mm"]) == ("wire.stl", 1, 0, 2.0)
     assert wire["volume_mm3"] == pytest.approx(np.pi * wire["length_mm"], rel=0.06)
