@@ -9,11 +9,20 @@ from functools import partial
 from pathlib import Path
 from time import perf_counter
 
+from fabricate.arrays import Floats
 from fabricate.checks.judge import judged_parts, read_part
 from fabricate.checks.measured import expectations, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Report, report_json
-from fabricate.config import Config, FileConfig, SphereConfig, config_sha256, moved_config, resolved_toml
+from fabricate.config import (
+    Config,
+    FileConfig,
+    SphereConfig,
+    ThicknessConfig,
+    config_sha256,
+    moved_config,
+    resolved_toml,
+)
 from fabricate.design.curve_wish import CurveWish
 from fabricate.design.designed import designed, grown
 from fabricate.duotone.duotone import Duotone
@@ -33,6 +42,7 @@ from fabricate.process import PROCESSES
 from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
+from fabricate.solid.thickness import varying_thickness
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.cut_certificate import cut_certificate
 from fabricate.surface.tile_choice import TileWish, chosen_tiling
@@ -99,7 +109,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     surface = _surface(duotone, tiling, config)
     certificate = cut_certificate(surface)
     watch.begin("solids")
-    made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
+    made = solids(surface, thickness=_thickness(surface, config), clearance=solid.clearance, core=solid.core)
     with complete_folder(out / name) as folder:
         watch.begin("files")
         paths = write_sculpture(folder, made.parts, list(surface.points[surface.curves]), name=name)
@@ -197,6 +207,14 @@ def _surface(duotone: Duotone, tiling: Tiling, config: Config) -> CutSurface:
     if tiling.surface is None or config.prepare.detail == "smooth":
         return fitted_cut(duotone, rings=rings, tolerance=tolerance, clearance=clearance)
     return detailed_cut(duotone, tiling.surface, rings=rings, tolerance=tolerance, clearance=clearance)
+
+
+def _thickness(surface: CutSurface, config: Config) -> float | Floats:
+    """Return the thickness of the walls, the same everywhere or one for each point of the surface; mm."""
+    wish = config.solid.thickness
+    if not isinstance(wish, ThicknessConfig):
+        return wish
+    return varying_thickness(surface, thinnest=wish.min, thickest=wish.max, by=wish.by)
 
 
 def _versions() -> dict[str, str]:

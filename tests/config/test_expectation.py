@@ -25,6 +25,7 @@ FIELDS = {
         ("PatternConfig.levels", "a whole number, at least 0, at most 12"),
         ("PatternConfig.arc", "a number, more than 0.293, less than 0.707"),
         ("PrepareConfig.crease", "an angle, at least 0 deg, at most 180 deg"),
+        ("SolidConfig.thickness", "a length, more than 0 mm, or a table of min, max, by"),
         ("SolidConfig.core", 'one of "hollow", "blue", "yellow"'),
     ],
 )
