@@ -10,6 +10,7 @@ from pathlib import Path
 from time import perf_counter
 
 from fabricate.arrays import Floats
+from fabricate.checks.finished import finish_facts, with_finish
 from fabricate.checks.judge import judged_parts, read_part
 from fabricate.checks.measured import expectations, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
@@ -40,6 +41,7 @@ from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES
 from fabricate.solid.detailed import detailed_cut
+from fabricate.solid.finish import FinishWish, finished
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
 from fabricate.solid.thickness import varying_thickness
@@ -110,9 +112,10 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
     certificate = cut_certificate(surface)
     watch.begin("solids")
     made = solids(surface, thickness=_thickness(surface, config), clearance=solid.clearance, core=solid.core)
+    ready = finished(surface, made, _finish_wish(config))
     with complete_folder(out / name) as folder:
         watch.begin("files")
-        paths = write_sculpture(folder, made.parts, list(surface.points[surface.curves]), name=name)
+        paths = write_sculpture(folder, ready.parts, list(surface.points[surface.curves]), name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
         wanted = expectations(
@@ -123,7 +126,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
             core=solid.core,
             process=process,
         )
-        judged = judged_parts([read_part(path) for path in paths], wanted)
+        judged = judged_parts([read_part(path) for path in paths], with_finish(wanted, ready))
         report = Report(
             name=name,
             config_sha256=config_sha256(config),
@@ -134,6 +137,7 @@ def _sculpture(body: Prepared, config: Config, *, name: str, out: Path, watch: _
             fit=judged.fit,
             checks=judged.checks,
             seconds=watch.ended(),
+            finish=finish_facts(ready),
         )
         write_whole(folder / "report.json", report_json(report).encode())
     return report
@@ -215,6 +219,18 @@ def _thickness(surface: CutSurface, config: Config) -> float | Floats:
     if not isinstance(wish, ThicknessConfig):
         return wish
     return varying_thickness(surface, thinnest=wish.min, thickest=wish.max, by=wish.by)
+
+
+def _finish_wish(config: Config) -> FinishWish:
+    solid, openings, base = config.solid, config.solid.openings, config.solid.base
+    return FinishWish(
+        clearance=solid.clearance,
+        wall=PROCESSES[config.process.name].wall_min,
+        tolerance=solid.tolerance,
+        opening_diameter=0.0 if openings is None else openings.diameter,
+        opening_count=0 if openings is None else openings.count,
+        stand_height=0.0 if base is None else base.height,
+    )
 
 
 def _versions() -> dict[str, str]:

@@ -11,6 +11,8 @@ from pydantic import BaseModel, ValidationError
 
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Expectations
+from fabricate.checks.facts import FinishFacts
+from fabricate.checks.finished import with_handles
 from fabricate.checks.judge import Judgement, judged_parts, read_part
 from fabricate.checks.measured import expected_genus
 from fabricate.config import load_config
@@ -45,6 +47,7 @@ class _Recorded(BaseModel):
     config_sha256: str
     pattern: _Pattern
     parts: dict[str, _Part]
+    finish: FinishFacts = FinishFacts((), None)
 
 
 def rechecked(paths: Sequence[Path], *, clearance: float | None) -> Recheck:
@@ -78,7 +81,7 @@ def _rechecked_folder(folder: Path, clearance: float | None) -> Recheck:
         parts,
         Expectations(
             clearance=config.solid.clearance if clearance is None else clearance,
-            genus=expected_genus(recorded.pattern.handles, core=config.solid.core),
+            genus=with_handles(expected_genus(recorded.pattern.handles, core=config.solid.core), recorded.finish),
             process=PROCESSES[config.process.name],
         ),
     )

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from fabricate.checks.check import Check
-from fabricate.checks.facts import FitFacts, MeshFacts, PartFacts, PatternFacts
+from fabricate.checks.facts import FinishFacts, FitFacts, MeshFacts, PartFacts, PatternFacts
 
 __all__ = ["Check", "Report", "report_json"]
 
@@ -40,6 +40,8 @@ class Report:
         Every check, in the order of judging.
     seconds : mapping of str to float
         Time that each stage took.
+    finish : FinishFacts or None
+        Openings and stand; None where nothing is known of them.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Report:
     fit: FitFacts | None
     checks: tuple[Check, ...]
     seconds: Mapping[str, float] = field(default_factory=dict)
+    finish: FinishFacts | None = None
 
     def __post_init__(self) -> None:
         for name in ("versions", "parts", "seconds"):
@@ -81,6 +84,7 @@ def report_json(report: Report) -> str:
         "mesh": report.mesh,
         "pattern": report.pattern,
         "parts": report.parts,
+        "finish": report.finish,
         "fit": report.fit,
         "checks": [_check_entry(check) for check in report.checks],
         "seconds": report.seconds,

@@ -29,6 +29,22 @@ class ThicknessConfig(Section):
         return self
 
 
+class OpeningsConfig(Section):
+    """Round holes through the walls, by which resin or powder leaves the hollow inside."""
+
+    diameter: Annotated[Length, Field(gt=0)]
+    """Width of each."""
+    count: Annotated[int, Field(ge=1, le=100)] = 1
+    """How many there are."""
+
+
+class BaseConfig(Section):
+    """A flat stand, united with the part that has the lowest point."""
+
+    height: Annotated[Length, Field(gt=0)]
+    """By how much it lifts the sculpture."""
+
+
 def _kind(value: object) -> str:
     return "ThicknessConfig" if isinstance(value, dict | ThicknessConfig) else "a length"
 
@@ -51,6 +67,17 @@ class SolidConfig(Section):
     """Gap between facing walls, 0 mm for a two-colour job; the process decides unless it is given."""
     tolerance: Annotated[Length, Field(gt=0)] = 0.05
     """How far the triangles may lie from the true surface."""
+    openings: OpeningsConfig | None = Field(default=None, examples=[{"diameter": "3.5 mm", "count": 2}])
+    """Drain and escape holes into the hollow inside, where they cut no neck; none unless given."""
+    base: BaseConfig | None = Field(default=None, examples=[{"height": "3 mm"}])
+    """Flat stand under the lowest region; none unless given."""
+
+    @model_validator(mode="after")
+    def _only_a_hollow_is_opened(self) -> Self:
+        if self.openings is not None and self.core != "hollow":
+            message = f'expected none with core = "{self.core}", which keeps no hollow: remove one of the two'
+            raise wrong_value("solid.openings", message)
+        return self
 
     @property
     def thickness_range(self) -> tuple[float, float]:

@@ -62,4 +62,4 @@ def test_solids_are_as_thick_as_asked_at_each_point(ring: CutSurface) -> None:
     inner = made.points[np.unique(made.shell)].reshape(2, n, 3)[1]
     depth = np.linalg.norm(inner - ring.points, axis=1)
     assert np.quantile(np.abs(depth - asked), 0.99) < 0.1
-    assert len(crossing_triangles(made.points, np.concatenate([made.yellow, made.blue]))) == 0
+    assert len(crossing_triangles(made.points, np.concatenate(made.bodies))) == 0
