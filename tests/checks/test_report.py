@@ -82,7 +82,8 @@ def content(made: Report) -> Any:
 def test_keys_are_those_of_the_contract() -> None:
     found = content(report(gap=Gap(0.29, (1.0, 2.0, 3.0)), play=Play(0.6, 0.6, 0.6, 1.0, 2.0, 3.0)))
     assert list(found) == [
-        "name", "ok", "config_sha256", "versions", "mesh", "pattern", "parts", "fit", "checks", "seconds",
+        "name", "ok", "config_sha256", "versions", "mesh", "pattern", "parts", "finish", "fit", "checks",
+        "seconds",
     ]  # fmt: skip
     assert found["mesh"] == {
         "vertices": 8, "faces": 6, "genus": 0, "size_mm": [10, 20, 30],
