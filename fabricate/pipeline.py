@@ -9,7 +9,9 @@ from functools import partial
 from pathlib import Path
 from time import perf_counter
 
+from fabricate.arrays import Floats
 from fabricate.checks.facts import WireFacts
+from fabricate.checks.finished import finish_facts, with_finish
 from fabricate.checks.judge import judged_parts, read_part
 from fabricate.checks.judged_wire import judged_wire
 from fabricate.checks.measured import chords, expectations, mesh_facts, pattern_facts
@@ -17,7 +19,16 @@ from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Check, Report, report_json
 from fabricate.checks.share import share_checks
 from fabricate.checks.shop import most_polygons
-from fabricate.config import Config, FileConfig, PatternConfig, SphereConfig, config_sha256, moved_config, resolved_toml
+from fabricate.config import (
+    Config,
+    FileConfig,
+    PatternConfig,
+    SphereConfig,
+    ThicknessConfig,
+    config_sha256,
+    moved_config,
+    resolved_toml,
+)
 from fabricate.config.handles_config import handles_of_yellow
 from fabricate.design.area_share import shared_cut, square_arc
 from fabricate.design.curve_wish import CurveWish
@@ -45,9 +56,11 @@ from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES, Process
 from fabricate.solid.detailed import detailed_cut
+from fabricate.solid.finish import FinishWish, finished
 from fabricate.solid.polygon_budget import affordable
 from fabricate.solid.settling import fitted_cut, has_room
 from fabricate.solid.solids import solids
+from fabricate.solid.thickness import varying_thickness
 from fabricate.solid.wire import Wire, wire
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.cut_certificate import cut_certificate
@@ -139,11 +152,12 @@ def _sculpture(
     surface, coarser = fitting.surface, fitting.tolerance > solid.tolerance
     certificate = cut_certificate(surface)
     watch.begin("solids")
-    made = solids(surface, thickness=solid.thickness, clearance=solid.clearance, core=solid.core)
+    made = solids(surface, thickness=_thickness(surface, config), clearance=solid.clearance, core=solid.core)
+    ready = finished(surface, made, _finish_wish(config))
     bent = _wire(surface, config)
     with complete_folder(out / name) as folder:
         watch.begin("files")
-        paths = write_parts(folder, made.parts, list(surface.points[surface.curves]), name=name)
+        paths = write_parts(folder, ready.parts, list(surface.points[surface.curves]), name=name)
         _write_curve_files(folder, surface, bent, config, name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
@@ -156,11 +170,11 @@ def _sculpture(
             process=process,
             shop=config.process.shop,
         )
-        judged = judged_parts([read_part(path) for path in paths], wanted)
+        judged = judged_parts([read_part(path) for path in paths], with_finish(wanted, ready))
         pattern = pattern_facts(design, certificate, surface)
         thread, alone = _judged_wire(folder, bent, process)
         watch.begin("pictures")
-        write_pictures(folder, made.parts, marks=witness_marks(made.parts, judged.fit.pairs if judged.fit else {}))
+        write_pictures(folder, ready.parts, marks=witness_marks(ready.parts, judged.fit.pairs if judged.fit else {}))
         report = Report(
             name=name,
             config_sha256=config_sha256(config),
@@ -177,6 +191,7 @@ def _sculpture(
             checks=judged.checks + alone + share_checks(config.pattern.area_share, found=pattern.area_share["yellow"]),
             seconds=watch.ended(),
             wire=thread,
+            finish=finish_facts(ready),
         )
         write_whole(folder / "report.json", report_json(report).encode())
     return report
@@ -310,6 +325,26 @@ def _judged_wire(folder: Path, bent: Wire | None, process: Process) -> tuple[Wir
         return None, ()
     path = folder / f"{bent.part.name}.stl"
     return judged_wire(path, diameter=bent.diameter, length=bent.length, process=process)
+
+
+def _thickness(surface: CutSurface, config: Config) -> float | Floats:
+    """Return the thickness of the walls, the same everywhere or one for each point of the surface; mm."""
+    wish = config.solid.thickness
+    if not isinstance(wish, ThicknessConfig):
+        return wish
+    return varying_thickness(surface, thinnest=wish.min, thickest=wish.max, by=wish.by)
+
+
+def _finish_wish(config: Config) -> FinishWish:
+    solid, openings, base = config.solid, config.solid.openings, config.solid.base
+    return FinishWish(
+        clearance=solid.clearance,
+        wall=PROCESSES[config.process.name].wall_min,
+        tolerance=solid.tolerance,
+        opening_diameter=0.0 if openings is None else openings.diameter,
+        opening_count=0 if openings is None else openings.count,
+        stand_height=0.0 if base is None else base.height,
+    )
 
 
 def _versions() -> dict[str, str]:

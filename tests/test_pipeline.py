@@ -105,7 +105,7 @@ def test_every_file_is_there_and_nothing_else(made: Path) -> None:
 def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None:
     assert set(report) == {
         *("name", "ok", "config_sha256", "versions", "mesh"),
-        *("pattern", "parts", "fit", "wire", "checks", "seconds"),
+        *("pattern", "parts", "finish", "fit", "wire", "checks", "seconds"),
     }
     assert set(report["mesh"]) == {
         *("vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm", "chord_mm"),
@@ -124,6 +124,7 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
             *("components", "watertight", "self_intersections", "wall_mm", "neck_mm"),
         }
         assert set(part["wall_mm"]) == {"min", "median"}
+    assert report["finish"] == {"openings": [], "base": None}
     assert set(report["fit"]) == {
         *("clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm", "witness", "pairs"),
     }
@@ -269,6 +270,16 @@ def test_one_ring_is_an_arc(config: Path, made: Path, tmp_path: Path) -> None:
     run(config, tmp_path, "pattern.rings=[0.5]")
     for name in FILES - {"report.json", "config.toml"}:
         assert (tmp_path / "small" / name).read_bytes() == (made / name).read_bytes(), name
+
+
+def test_openings_and_a_stand_are_made_and_expected_again(config: Path, tmp_path: Path) -> None:
+    openings, base = 'solid.openings={diameter="2 mm",count=2}', 'solid.base={height="3 mm"}'
+    made = run(config, tmp_path, openings, base, "solid.thickness={min='1.8 mm',max='2.6 mm',by='height'}")
+    assert [check.code for check in made.checks if check.failed] == []
+    assert made.finish is not None
+    assert made.finish.base is not None
+    assert len(made.finish.openings) == 2
+    assert status("check", str(tmp_path / "small")) == 0
 
 
 def move_vertex(path: Path, *, by: float) -> None:

@@ -276,6 +276,34 @@ class PairFacts:
 
 
 @dataclass(frozen=True)
+class OpeningFacts:
+    """A round hole through a part's wall: where its axis goes in, and which way; mm."""
+
+    part: str
+    diameter_mm: float
+    at: Xyz
+    way: Xyz
+
+
+@dataclass(frozen=True)
+class BaseFacts:
+    """The stand: the part it belongs to, its height, the plate's diameter, mm, and how many feet are on it."""
+
+    part: str
+    height_mm: float
+    diameter_mm: float
+    feet: int
+
+
+@dataclass(frozen=True)
+class FinishFacts:
+    """What the parts have beside their regions."""
+
+    openings: tuple[OpeningFacts, ...]
+    base: BaseFacts | None
+
+
+@dataclass(frozen=True)
 class FitFacts:
     """How the parts go together; None where it could not be measured or is not known.
 

@@ -11,7 +11,8 @@ from pydantic import BaseModel, ValidationError
 
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Expectations
-from fabricate.checks.facts import WireFacts
+from fabricate.checks.facts import FinishFacts, WireFacts
+from fabricate.checks.finished import with_handles
 from fabricate.checks.judge import Judgement, judged_parts, read_part
 from fabricate.checks.judged_wire import judged_wire
 from fabricate.checks.measured import expected_genus
@@ -54,6 +55,7 @@ class _Recorded(BaseModel):
     pattern: _Pattern
     parts: dict[str, _Part]
     wire: _Wire | None = None
+    finish: FinishFacts = FinishFacts((), None)
 
 
 def rechecked(paths: Sequence[Path], *, clearance: float | None) -> Recheck:
@@ -87,7 +89,7 @@ def _rechecked_folder(folder: Path, clearance: float | None) -> Recheck:
         parts,
         Expectations(
             clearance=config.solid.clearance if clearance is None else clearance,
-            genus=expected_genus(recorded.pattern.handles, core=config.solid.core),
+            genus=with_handles(expected_genus(recorded.pattern.handles, core=config.solid.core), recorded.finish),
             process=PROCESSES[config.process.name],
             shop=config.process.shop,
         ),

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from fabricate.checks.check import Check
-from fabricate.checks.facts import FitFacts, MeshFacts, PartFacts, PatternFacts, WireFacts
+from fabricate.checks.facts import FinishFacts, FitFacts, MeshFacts, PartFacts, PatternFacts, WireFacts
 
 __all__ = ["Check", "Report", "report_json"]
 
@@ -42,6 +42,8 @@ class Report:
         Time that each stage took.
     wire : WireFacts or None
         The wire along the curve, where one was asked for.
+    finish : FinishFacts or None
+        Openings and stand; None where nothing is known of them.
     """
 
     name: str
@@ -54,6 +56,7 @@ class Report:
     checks: tuple[Check, ...]
     seconds: Mapping[str, float] = field(default_factory=dict)
     wire: WireFacts | None = None
+    finish: FinishFacts | None = None
 
     def __post_init__(self) -> None:
         for name in ("versions", "parts", "seconds"):
@@ -84,6 +87,7 @@ def report_json(report: Report) -> str:
         "mesh": report.mesh,
         "pattern": report.pattern,
         "parts": report.parts,
+        "finish": report.finish,
         "fit": report.fit,
         "wire": report.wire,
         "checks": [_check_entry(check) for check in report.checks],

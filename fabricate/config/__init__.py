@@ -19,7 +19,7 @@ from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
 from fabricate.config.resolved import config_sha256, moved_config, resolved_toml
 from fabricate.config.shop_config import ShopConfig
-from fabricate.config.solid_config import SolidConfig
+from fabricate.config.solid_config import SolidConfig, ThicknessConfig
 from fabricate.config.source_config import (
     CubeConfig,
     FileConfig,
@@ -54,6 +54,7 @@ __all__ = [
     "SolidConfig",
     "SourceConfig",
     "SphereConfig",
+    "ThicknessConfig",
     "TorusConfig",
     "config_sha256",
     "load_config",

@@ -61,11 +61,12 @@ class Config(BaseModel):
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
         size, solid, tile = self.source.size, self.solid, self.pattern.tile_size
-        if solid.thickness >= size / 2:
+        thinnest, thickest = solid.thickness_range
+        if thickest >= size / 2:
             limit = f"less than half the size, {format_length(size / 2)}"
-            raise _too_large("solid.thickness", solid.thickness, limit)
-        if solid.clearance >= 4 * solid.thickness:
-            limit = f"less than four times the thickness, {format_length(4 * solid.thickness)}"
+            raise _too_large("solid.thickness", thickest, limit)
+        if solid.clearance >= 4 * thinnest:
+            limit = f"less than four times the thickness, {format_length(4 * thinnest)}"
             raise _too_large("solid.clearance", solid.clearance, limit)
         rings = len(self.pattern.positions)
         if self.curve.wire is not None and rings > 1:

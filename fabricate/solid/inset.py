@@ -105,14 +105,15 @@ def ways_through(surface: CutSurface, ways: Floats) -> Floats:
     return first_hits(surface.points, surface.triangles, surface.points + START * inward, inward).distance
 
 
-def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float, between: float) -> Floats:
-    """Return the depth of each inner point, (n,) mm: the thickness, less where the body is thin.
+def capped_depth(surface: CutSurface, ways: Floats, *, thickness: float | Floats, between: float) -> Floats:
+    """Return the depth of each inner point, (n,) mm: the thickness, (n,) or one for all, less where the body is thin.
 
     `ways`, (n, 3), are those by which a point moves in for each mm of depth, longer than 1 at sharp edges. Where
     the way through the body is shorter than two walls and `between`, the two inner
     surfaces keep `between` mm from each other. The depth changes gently from point to point.
     """
     through = ways_through(surface, ways) / np.linalg.norm(ways, axis=1)
+    thickness = np.broadcast_to(thickness, through.shape)
     depth: Floats = np.clip((through - between) / 2.0, 0.1 * thickness, thickness)
     if (depth < thickness).any():
         ends = undirected_edges(surface.triangles)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,3 +35,10 @@ class Part:
         rounded = np.asarray(self.points, dtype=np.float32).astype(np.float64) + 0.0  # -0.0 becomes 0.0
         object.__setattr__(self, "points", frozen(rounded, np.float64, (None, 3)))
         object.__setattr__(self, "triangles", frozen(self.triangles, np.int64, (None, 3)))
+
+
+def joined(name: str, parts: Sequence[Part]) -> Part:
+    """Return all triangles of some parts as one part with a name."""
+    begins = np.cumsum([0, *(len(part.points) for part in parts)])
+    triangles = [part.triangles + begin for part, begin in zip(parts, begins[:-1], strict=True)]
+    return Part(name, np.concatenate([part.points for part in parts]), np.concatenate(triangles))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fabricate.arrays import Mask
+from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.clearance import check_necks
@@ -38,9 +38,10 @@ CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
 
 
-def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Core = "hollow") -> Assembly:
+def solids(surface: CutSurface, *, thickness: float | Floats, clearance: float, core: Core = "hollow") -> Assembly:
     """Make the yellow and the blue solid, `thickness` mm deep with walls `clearance` mm apart.
 
+    The thickness is the same everywhere, or (n,), one under each point of the surface.
     Where that is impossible on a small scale the wall is thinner or the gap smaller; `fabricate.checks` measures both.
 
     Raises
@@ -49,14 +50,15 @@ def solids(surface: CutSurface, *, thickness: float, clearance: float, core: Cor
         If the thickness is not positive, the clearance is negative or as wide as the necks or as most of the body is
         thick, or the surface crosses itself.
     """
-    _check_sizes(surface, thickness, clearance)
+    thinnest, thickest = float(np.min(thickness)), float(np.max(thickness))
+    _check_sizes(surface, thinnest, clearance)
     _check_embedded(surface)
     check_thick(surface.points, surface.triangles, clearance=clearance)
     between = 1.1 * clearance if core == "hollow" else 2.0 * clearance + CORE_WEB
-    down = downward(surface.points, surface.triangles, ways_in(surface, thickness=thickness))
+    down = downward(surface.points, surface.triangles, ways_in(surface, thickness=thickest))
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
-    straight = SAFE_DEPTH * thickness * straight_down(surface.points, surface.triangles)
+    straight = SAFE_DEPTH * thinnest * straight_down(surface.points, surface.triangles)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
     times = np.zeros(len(inner), dtype=np.int64)

@@ -14,6 +14,12 @@ def area_vectors(points: Floats, triangles: Indices) -> Floats:
     return vectors
 
 
+def point_areas(points: Floats, triangles: Indices) -> Floats:
+    """Return a third of the area of the triangles at each point, (n,) float, mm2."""
+    share = np.linalg.norm(area_vectors(points, triangles), axis=1) / 6.0
+    return np.asarray(np.bincount(triangles.ravel(), np.repeat(share, 3), minlength=len(points)), dtype=np.float64)
+
+
 def vertex_normals(points: Floats, triangles: Indices) -> Floats:
     """Return area-weighted unit normals, (n, 3) float."""
     facet = area_vectors(points, triangles)

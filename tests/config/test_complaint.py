@@ -97,6 +97,28 @@ MISTAKES = [
     Mistake(TORUS + '[solid]\nthicknes = "2 mm"', ("solid.thicknes", "did you mean solid.thickness?")),
     Mistake(TORUS + 'thickness = "2 mm"', ("source.thickness", "did you mean solid.thickness?")),
     Mistake(TORUS + '[solid]\nthickness = "0 mm"', ("solid.thickness", "more than 0 mm")),
+    Mistake(TORUS + "[solid]\nthickness = [1]", ("solid.thickness", "a length", "or a table of min, max, by", "[1]")),
+    Mistake(TORUS + '[solid.thickness]\nmin = "1 mm"', ("solid.thickness.max", "a length", "found nothing")),
+    Mistake(TORUS + "[solid.thickness]\nmin = 1", ("solid.thickness.min", "unit", '"1 mm"')),
+    Mistake(
+        TORUS + '[solid]\nthickness = { min = "3 mm", max = "2 mm", by = "height" }',
+        ("solid.thickness.min", "at most max, 2 mm", '"3 mm"'),
+    ),
+    Mistake(
+        TORUS + '[solid]\nthickness = { min = "1 mm", max = "50 mm", by = "height" }',
+        ("solid.thickness", "half the size", '"50 mm"'),
+    ),
+    Mistake(
+        TORUS + '[solid]\nthickness = { min = "1 mm", max = "2 mm", by = "heigth" }',
+        ("solid.thickness.by", 'did you mean "height"?'),
+    ),
+    Mistake(TORUS + "[solid]\nopenings = { count = 2 }", ("solid.openings.diameter", "a length", "found nothing")),
+    Mistake(
+        TORUS + '[solid]\nopenings = { diameter = "3 mm", count = 0 }', ("solid.openings.count", "at least 1", "0")
+    ),
+    Mistake(TORUS + '[solid]\ncore = "blue"\nopenings = { diameter = "3 mm" }', ("solid.openings", 'core = "blue"')),
+    Mistake(TORUS + "[solid]\nopenings = 3", ("solid.openings", "a table of diameter, count", "found 3")),
+    Mistake(TORUS + '[solid]\nbase = { heigth = "3 mm" }', ("solid.base.heigth", "did you mean height?")),
     Mistake(TORUS + '[solid]\nthickness = "50 mm"', ("solid.thickness", "half the size", "50 mm")),
     Mistake(TORUS + 'size = "4 mm"', ("solid.thickness", "half the size", '"2.4 mm"')),
     Mistake(TORUS + '[solid]\nclearance = "-0.1 mm"', ("solid.clearance", "at least 0 mm", '"-0.1 mm"')),

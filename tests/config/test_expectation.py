@@ -28,6 +28,7 @@ FIELDS = {
         ("PatternConfig.locks", "tables [[pattern.locks]]"),
         ("HeightConfig.axis", "three numbers such as [0, 0, 1]"),
         ("HeightConfig.reverse", "true or false"),
+        ("SolidConfig.thickness", "a length, more than 0 mm, or a table of min, max, by"),
         ("SolidConfig.core", 'one of "hollow", "blue", "yellow"'),
     ],
 )

@@ -21,6 +21,7 @@ from fabricate.config import (
     ProcessConfig,
     SolidConfig,
     SphereConfig,
+    ThicknessConfig,
     TorusConfig,
     load_config,
 )
@@ -62,7 +63,10 @@ CURVE = st.builds(
 )
 SOLID = st.builds(
     SolidConfig,
-    thickness=st.floats(0.1, 20),
+    thickness=st.floats(0.1, 20)
+    | st.builds(
+        ThicknessConfig, min=st.floats(0.1, 2), max=st.floats(2, 20), by=st.sampled_from(["height", "curvature"])
+    ),
     core=st.sampled_from(["hollow", "blue", "yellow"]),
     clearance=st.floats(0, 0.4, exclude_max=True),
     tolerance=st.floats(min_value=1e-6, max_value=10),

@@ -14,6 +14,7 @@ def test_the_schema_shows_configs_as_they_are_written() -> None:
     assert tile_size["default"] == "7 mm"
     assert (pattern["levels"]["type"], pattern["levels"]["maximum"]) == ("integer", 12)
     assert "default" not in pattern["levels"]
+    assert schema["$defs"]["SolidConfig"]["properties"]["thickness"]["default"] == "2.4 mm"
     assert "null" not in json.dumps(schema)
     sections = {"source", "prepare", "pattern", "curve", "field", "optimise", "solid", "process"}
     assert sections == set(schema["properties"])

@@ -9,7 +9,7 @@ from polyhedra import hull, octahedron, on_sphere, seeds
 
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import geodesic_sphere
-from fabricate.triangles.normals import mean_normals, unit, vertex_normals
+from fabricate.triangles.normals import area_vectors, mean_normals, point_areas, unit, vertex_normals
 
 
 @st.composite
@@ -83,3 +83,11 @@ def test_mean_normals_count_each_triangle_once_whatever_its_size(mesh: PolygonMe
         a, b, c = mesh.points[triangle]
         wanted[triangle] += unit(np.cross(b - a, c - a)[None])
     np.testing.assert_allclose(mean_normals(mesh.points, mesh.corners.reshape(-1, 3)), unit(wanted), atol=1e-9)
+
+
+@given(mesh=bodies())
+def test_the_areas_of_all_points_add_up_to_the_surface(mesh: PolygonMesh) -> None:
+    triangles = mesh.corners.reshape(-1, 3)
+    areas = point_areas(mesh.points, triangles)
+    assert (areas > 0).all()
+    assert areas.sum() == pytest.approx(np.linalg.norm(area_vectors(mesh.points, triangles), axis=1).sum() / 2)

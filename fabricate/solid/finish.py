@@ -1,0 +1,97 @@
+"""The finish: openings drilled and a stand added when the parts are made."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from fabricate.solid.assembly import Assembly
+from fabricate.solid.booleans import manifold_of, part_of
+from fabricate.solid.openings import Opening, drilled, drills, placed_openings
+from fabricate.solid.part import Part
+from fabricate.solid.room import roomy_places
+from fabricate.solid.stand import Stand, placed_stand, stand_solid, standing
+from fabricate.surface.cut import CutSurface
+
+
+@dataclass(frozen=True, kw_only=True)
+class FinishWish:
+    """What is asked for beside the parts themselves; all lengths in mm.
+
+    Attributes
+    ----------
+    opening_diameter, opening_count : float and int
+        Of the openings; none where the count is 0.
+    stand_height : float
+        How high the stand is; 0 for none.
+    clearance, wall : float
+        Gap that the stand keeps from what it does not belong to, and least thickness that is left of anything.
+    tolerance : float
+        Chord error of round things.
+    """
+
+    clearance: float
+    wall: float
+    tolerance: float
+    opening_diameter: float = 0.0
+    opening_count: int = 0
+    stand_height: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Finished:
+    """Parts that are ready.
+
+    Attributes
+    ----------
+    parts : tuple of Part
+    spaces : (gap, shell)
+        The space between the parts, and the uncut whole with the same openings and the same stand.
+    openings : tuple of Opening
+    stand : Stand or None
+    """
+
+    parts: tuple[Part, ...]
+    spaces: tuple[Part, Part]
+    openings: tuple[Opening, ...] = ()
+    stand: Stand | None = None
+
+
+def finished(surface: CutSurface, made: Assembly, wish: FinishWish) -> Finished:
+    """Drill the openings and add the stand that are asked for.
+
+    Raises
+    ------
+    SolidError
+        If there is no room for them; says what there is room for.
+    """
+    parts: Sequence[Part] = made.parts
+    gap, shell = made.spaces
+    if not wish.opening_count and not wish.stand_height:
+        return Finished(tuple(parts), (gap, shell))
+    places, solid = roomy_places(surface), manifold_of(shell)
+    openings: tuple[Opening, ...] = ()
+    stand: Stand | None = None
+    if wish.opening_count:
+        openings = placed_openings(
+            parts,
+            places,
+            diameter=wish.opening_diameter,
+            count=wish.opening_count,
+            clearance=wish.clearance,
+            rim=wish.wall,
+        )
+        parts = [drilled(part, openings, tolerance=wish.tolerance) for part in parts]
+        solid = solid - drills(openings, tolerance=wish.tolerance)
+    if wish.stand_height:
+        stand = placed_stand(
+            parts,
+            places,
+            height=wish.stand_height,
+            clearance=wish.clearance,
+            wall=wish.wall,
+            tolerance=wish.tolerance,
+        )
+        parts = [standing(part, stand, tolerance=wish.tolerance) for part in parts]
+        solid = solid + stand_solid(stand, tolerance=wish.tolerance)
+    return Finished(tuple(parts), (gap, part_of(shell.name, solid)), openings, stand)
