@@ -459,8 +459,8 @@ def test_a_field_of_the_file_and_locks_make_a_pair(tmp_path: Path, monkeypatch: 
 
 
 def failed(report: Report, *, with_printability: bool) -> list[str]:
-    """Return the sentences of failed checks; walls and necks are made for the intended tile size only."""
-    of_the_process = (".wall", ".neck", "pattern.band", "fit.process_gap")
+    """Return the sentences of failed checks; walls, necks and the widest gap are for the intended sizes only."""
+    of_the_process = (".wall", ".neck", "pattern.band", "fit.process_gap", "fit.gap_max")
     return [
         check.message
         for check in report.checks
