@@ -464,7 +464,7 @@ def failed(report: Report, *, with_printability: bool) -> list[str]:
     return [
         check.message
         for check in report.checks
-        if check.failed and (with_printability or not check.code.endswith(of_the_process))
+        if check.failed and (with_printability or not any(code in check.code for code in of_the_process))
     ]
 
 
