@@ -83,6 +83,12 @@ class Assembly:
         """The gap and the uncut shell, as closed meshes."""
         return self._part("gap", self.gap), self._part("shell", self.shell)
 
+    @property
+    def inner(self) -> Floats:
+        """(n, 3) float: the inner side of the uncut wall under each point of the surface, mm."""
+        block = 2 * len(self.bodies) + 1 if len(self.gap) else 1
+        return self.points[block * self.surface_points : (block + 1) * self.surface_points]
+
     def middles(self, curve: Indices, region: int) -> Floats:
         """Return the mid-line of the joint along a curve, (c,) int, between a region and the next one, (c, 3) mm."""
         n = self.surface_points
