@@ -8,6 +8,7 @@ import sys
 import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, NoReturn
@@ -20,9 +21,12 @@ from typer.exceptions import TyperException
 
 from fabricate.batch.sheet import write_sheet
 from fabricate.batch.workers import Listener, Outcome, run_all
+from fabricate.checks.coupon_report import coupon_verdict
 from fabricate.checks.report import Check, report_json
+from fabricate.config import load_config
 from fabricate.config.schema import json_schema
 from fabricate.errors import ConfigError, FabricateError
+from fabricate.fit_coupon import make_coupon
 from fabricate.output.files import check_writable, write_whole
 from fabricate.output.new_config import write_new_config
 from fabricate.pipeline import check as check_parts
@@ -120,6 +124,35 @@ def run(
     sheet = write_sheet(outcomes, out) if len(outcomes) > 1 else None
     if sheet is not None:
         typer.echo(f"contact sheet -> {sheet}")
+    raise typer.Exit(max(outcome.status for outcome in outcomes))
+
+
+@app.command()
+def coupon(
+    config: Annotated[Path, typer.Argument(metavar="CONFIG", help="TOML file of the sculpture.")],
+    out: Annotated[Path, typer.Option(help="Folder that gets the folder CONFIG-coupon.")] = Path("outputs"),
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Replace a key: solid.thickness=2mm."),
+    ] = None,
+    cache: Annotated[
+        Path, typer.Option(envvar="FABRICATE_CACHE", help="Folder that keeps what takes long to prepare.")
+    ] = CACHE,
+) -> None:
+    """Make a small plate to print before the sculpture: pieces of its own joint at five clearances."""
+    store = Store(cache) if cache == CACHE else checked_store(cache)
+    name = f"{config.stem}-coupon"
+    with _listener(out) as listener:
+        reports = make_coupon(
+            load_config(config, settings or ()),
+            name=name,
+            out=out,
+            progress=partial(listener.stage, name),
+            store=store,
+        )
+        outcomes = [Outcome(report.name, 0 if report.ok else 1, coupon_verdict(report)) for report in reports]
+        for outcome in outcomes:
+            listener.finished(outcome)
     raise typer.Exit(max(outcome.status for outcome in outcomes))
 
 

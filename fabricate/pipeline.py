@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
+from typing import NamedTuple
 
 from fabricate.arrays import Floats
 from fabricate.checks.facts import WireFacts
@@ -32,7 +33,7 @@ from fabricate.config import (
 from fabricate.config.handles_config import handles_of_yellow
 from fabricate.design.area_share import shared_cut, square_arc
 from fabricate.design.curve_wish import CurveWish
-from fabricate.design.designed import designed, grown
+from fabricate.design.designed import Design, designed, grown
 from fabricate.design.field import FieldWish
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.handles import checked_handles
@@ -55,9 +56,10 @@ from fabricate.prepare.inspection import Inspection, inspected
 from fabricate.prepare.prepared import Prepared, prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES, Process
+from fabricate.solid.assembly import Assembly
 from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.finish import FinishWish, finished
-from fabricate.solid.polygon_budget import affordable
+from fabricate.solid.polygon_budget import Affordable, affordable
 from fabricate.solid.settling import fitted_cut, has_room
 from fabricate.solid.solids import solids
 from fabricate.solid.thickness import varying_thickness
@@ -90,20 +92,25 @@ def run(
         bodies, nothing of the one that it is about.
     """
     checked_place(out / name)
-    watch = _Stopwatch(progress)
+    watch = Stopwatch(progress)
+    bodies, field = read_bodies(config, watch=watch, store=store)
+    if config.prepare.components != "each":
+        return (_sculpture(bodies[0], config, field, name=name, out=out, watch=watch, store=store),)
+    return tuple(
+        _sculpture(body, config, field, name=f"{name}-{number}", out=out, watch=watch.copy(), store=store)
+        for number, body in enumerate(bodies, start=1)
+    )
+
+
+def read_bodies(config: Config, *, watch: Stopwatch, store: Store) -> tuple[tuple[Prepared, ...], FieldWish | None]:
+    """Read what a config divides; return its bodies, ready to be divided, and the field if it has one."""
     watch.begin("read")
     prepare = config.prepare
     limits = ReadLimits(max_bytes=prepare.max_file_mb << 20, max_faces=prepare.max_faces)
     mesh = source_mesh(config.source, limits=limits)
     field = _field(config, limits)
     watch.begin("prepare")
-    bodies = _bodies(mesh, config, store)
-    if prepare.components != "each":
-        return (_sculpture(bodies[0], config, field, name=name, out=out, watch=watch, store=store),)
-    return tuple(
-        _sculpture(body, config, field, name=f"{name}-{number}", out=out, watch=watch.copy(), store=store)
-        for number, body in enumerate(bodies, start=1)
-    )
+    return _bodies(mesh, config, store), field
 
 
 def _bodies(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, ...]:
@@ -122,18 +129,18 @@ def _field(config: Config, limits: ReadLimits) -> FieldWish | None:
     return FieldWish(config.field, field_source(config.field, config.source, limits=limits))
 
 
-def _sculpture(
-    body: Prepared,
-    config: Config,
-    field: FieldWish | None,
-    *,
-    name: str,
-    out: Path,
-    watch: _Stopwatch,
-    store: Store,
-) -> Report:
-    """Make the parts of one body."""
-    solid, process = config.solid, PROCESSES[config.process.name]
+class Divided(NamedTuple):
+    """A body divided by its curve: its tiles, what bound their size, the curve, and the cut surface."""
+
+    tiling: Tiling
+    limit: tuple[str, ...]
+    design: Design
+    fitting: Affordable
+
+
+def divided(body: Prepared, config: Config, field: FieldWish | None, *, watch: Stopwatch, store: Store) -> Divided:
+    """Divide one body as a config asks: tiles, curve and cut."""
+    solid = config.solid
     watch.begin("quads")
     wish, limit = _wish(config, body)
     curve = _curve_wish(config, field, genus=genus(body.mesh), neck=wish.neck)
@@ -141,18 +148,38 @@ def _sculpture(
     tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=own), progress=watch.tell, store=store)
     watch.begin("duotone")
     design = designed(tiling.quads, _in_place(curve, body, wish, tiling), progress=watch.tell)
-    duotone = design.duotone
     watch.begin("cut")
     fitting = affordable(
-        partial(_surface, duotone, tiling, config),
+        partial(_surface, design.duotone, tiling, config),
         tolerance=solid.tolerance,
         core=solid.core,
         budget=None if config.process.shop is None else most_polygons(config.process.shop),
     )
-    surface, coarser = fitting.surface, fitting.tolerance > solid.tolerance
+    return Divided(tiling, limit, design, fitting)
+
+
+def made_solids(surface: CutSurface, config: Config, *, clearance: float) -> Assembly:
+    """Make the parts of a config from its cut surface, with walls `clearance` mm apart."""
+    return solids(surface, thickness=_thickness(surface, config), clearance=clearance, core=config.solid.core)
+
+
+def _sculpture(
+    body: Prepared,
+    config: Config,
+    field: FieldWish | None,
+    *,
+    name: str,
+    out: Path,
+    watch: Stopwatch,
+    store: Store,
+) -> Report:
+    """Make the parts of one body."""
+    solid, process = config.solid, PROCESSES[config.process.name]
+    tiling, limit, design, fitting = divided(body, config, field, watch=watch, store=store)
+    duotone, surface, coarser = design.duotone, fitting.surface, fitting.tolerance > solid.tolerance
     certificate = cut_certificate(surface)
     watch.begin("solids")
-    made = solids(surface, thickness=_thickness(surface, config), clearance=solid.clearance, core=solid.core)
+    made = made_solids(surface, config, clearance=solid.clearance)
     ready = finished(surface, made, _finish_wish(config))
     bent = _wire(surface, config)
     with complete_folder(out / name) as folder:
@@ -178,7 +205,7 @@ def _sculpture(
         report = Report(
             name=name,
             config_sha256=config_sha256(config),
-            versions=_versions(),
+            versions=program_versions(),
             mesh=mesh_facts(
                 body,
                 replace(tiling, notes=limit + tiling.notes),
@@ -220,7 +247,7 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
     return Report(
         name=name,
         config_sha256=sha256,
-        versions=_versions(),
+        versions=program_versions(),
         mesh=None,
         pattern=None,
         parts=judged.parts,
@@ -347,11 +374,12 @@ def _finish_wish(config: Config) -> FinishWish:
     )
 
 
-def _versions() -> dict[str, str]:
+def program_versions() -> dict[str, str]:
+    """Return the version of each program that takes part."""
     return {"python": platform.python_version(), **{name: installed_version(name) for name in LIBRARIES}}
 
 
-class _Stopwatch:
+class Stopwatch:
     """Tells of each stage as it begins, and how long each one took."""
 
     def __init__(self, progress: Callable[[str], None]) -> None:
@@ -359,6 +387,7 @@ class _Stopwatch:
         self._began: list[tuple[str, float]] = []
 
     def begin(self, stage: str) -> None:
+        """Tell of a stage that begins now."""
         self._began.append((stage, perf_counter()))
         self._progress(stage)
 
@@ -366,9 +395,9 @@ class _Stopwatch:
         """Tell of a step within a stage."""
         self._progress(step)
 
-    def copy(self) -> _Stopwatch:
+    def copy(self) -> Stopwatch:
         """Return another watch that has run as long."""
-        other = _Stopwatch(self._progress)
+        other = Stopwatch(self._progress)
         other._began = list(self._began)
         return other
 

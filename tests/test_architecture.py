@@ -27,6 +27,7 @@ ROWS = [
     {"picture"},
     {"output"},
     {"pipeline"},
+    {"fit_coupon"},
     {"batch"},
     {"preview"},
     {"cli", "__main__"},

@@ -90,32 +90,24 @@ def report_json(report: Report) -> str:
         "finish": report.finish,
         "fit": report.fit,
         "wire": report.wire,
-        "checks": [_check_entry(check) for check in report.checks],
+        "checks": report.checks,
         "seconds": report.seconds,
     }
-    return json.dumps(_plain(content), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+    return json.dumps(json_value(content), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def _check_entry(check: Check) -> dict[str, object]:
-    return {
-        "code": check.code,
-        "ok": check.ok,
-        "skipped": check.skipped,
-        "message": check.message,
-        "where": check.where,
-    }
-
-
-def _plain(value: Any) -> Any:
-    """Return a value in dicts, lists and numbers that JSON can hold."""
+def json_value(value: Any) -> Any:
+    """Return a value in dicts, lists and numbers that JSON can hold; numbers with six significant digits."""
+    if isinstance(value, Check):
+        return {name: json_value(getattr(value, name)) for name in ("code", "ok", "skipped", "message", "where")}
     if is_dataclass(value):
-        return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
+        return {each.name: json_value(getattr(value, each.name)) for each in fields(value)}
     if isinstance(value, Mapping):
-        return {key: _plain(item) for key, item in value.items()}
+        return {key: json_value(item) for key, item in value.items()}
     if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
+        return json_value(value.tolist())
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [json_value(item) for item in value]
     return _rounded(value) if isinstance(value, float) else value
 
 

@@ -17,6 +17,8 @@ NAMED: dict[str, Colour] = {
     "yellow": (0xF6, 0xBC, 0x30),
     "blue": (0x27, 0x67, 0xB8),
     "witness": (0xC6, 0x12, 0x2F),
+    "plate": (0x27, 0x67, 0xB8),
+    "inserts": (0xF6, 0xBC, 0x30),
 }
 # In this order for parts with any other name: neighbours differ in hue and in lightness.
 CYCLE: tuple[Colour, ...] = (
@@ -32,8 +34,8 @@ CYCLE: tuple[Colour, ...] = (
 def part_colours(names: Sequence[str]) -> tuple[Colour, ...]:
     """Return one sRGB colour (0..255) per part name; a name given twice has one colour.
 
-    "yellow" and "blue" are what they say, and the arrows of a "witness" are red; the others take the colours of a fixed
-    cycle in order.
+    "yellow" and "blue" are what they say, and the arrows of a "witness" are red; the "plate" of a fit coupon is blue
+    and what is loose in it, its "inserts", yellow. The others take the colours of a fixed cycle in order.
     """
     others = [name for name in dict.fromkeys(names) if name not in NAMED]
     known = NAMED | dict(zip(others, islice(cycle(CYCLE), len(others)), strict=True))

@@ -13,8 +13,9 @@ to the plate. Everything lies flat on z = 0.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
@@ -24,7 +25,7 @@ from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
 from fabricate.solid.assembly import Assembly
 from fabricate.solid.booleans import Cylinder, bar, manifold_of, part_of, united
-from fabricate.solid.coupon_places import CouponPlace, bend_places, neck_places
+from fabricate.solid.coupon_places import CouponPlace, Kind, bend_places, neck_places
 from fabricate.solid.coupon_window import CouponWindow, widest_window
 from fabricate.solid.lettering import raised_text, text_width
 from fabricate.solid.part import Part, joined
@@ -59,7 +60,7 @@ DIGITS, STROKE, RAISED = 6.0, 1.0, 0.6
 """Height of digits, width of their strokes, and how high they stand above the plate, mm."""
 
 TURNS = (0.0, 3.0, 5.0, 7.0)
-"""By how many degrees round cuts are turned, one after the other, until rounding to float32 makes no triangles cross."""
+"""By how many degrees round cuts are turned, one after the other, until rounded to float32 no triangles cross."""
 
 TOLERANCE = 0.05
 """Chord error of round cuts, mm."""
@@ -88,12 +89,21 @@ class Coupon:
         What is written under the columns: the clearances in mm.
     thickness : float
         Of the plate, mm.
+    regions : int
+        How many regions the sculpture has.
+    wanted : mapping of str to float
+        Width of the narrowest neck of all, and median radius of the bends, mm, by the kind of place.
     """
 
     plate: Part
     pieces: tuple[CouponPiece, ...]
     labels: tuple[str, ...]
     thickness: float
+    regions: int
+    wanted: Mapping[Kind, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "wanted", MappingProxyType(dict(self.wanted)))
 
     @property
     def inserts(self) -> Part:
@@ -160,10 +170,8 @@ def coupon(
     clearances = coupon_clearances(clearance)
     made = [make(each) for each in clearances]
     wish = _WindowWish([each.inner for each in made], clearances[-1], wall)
-    windows = (
-        _first_window(surface, neck_places(surface, joined_yellow), wish),
-        _first_window(surface, bend_places(surface, joined_yellow), wish),
-    )
+    offered = neck_places(surface, joined_yellow), bend_places(surface, joined_yellow)
+    windows = _first_window(surface, offered[0], wish), _first_window(surface, offered[1], wish)
     plan = _Plan(windows, tuple(map(label, clearances)), max(PLATE, wall), _room(clearances[-1]))
     crops = [
         [_cropped(solids, window, plan.middle(row, column)) for row, window in enumerate(windows)]
@@ -177,7 +185,8 @@ def coupon(
         CouponPiece(clearances[k // 2], windows[k % 2], plan.middle(k % 2, k // 2), part)
         for k, part in enumerate(inserts)
     )
-    return Coupon(plate, pieces, plan.labels, plan.thickness)
+    wanted = {places[0].kind: places[0].size for places in offered}
+    return Coupon(plate, pieces, plan.labels, plan.thickness, len(surface.rings) + 1, wanted)
 
 
 class _WindowWish(NamedTuple):
@@ -201,7 +210,7 @@ class _Plan:
     def pitch(self) -> float:
         """From one column to the next."""
         widths = [text_width(text, height=DIGITS, stroke=STROKE) for text in self.labels]
-        return BAR + max(*(2.0 * window.radius for window in self.windows), *widths)
+        return BAR + max(*(2.0 * window.radius for window in self.windows), BAR + max(widths))
 
     @property
     def size(self) -> tuple[float, float]:
@@ -286,9 +295,7 @@ def _put_together(
 
 def _round(middle: Floats, radius: float, bottom: float, top: float, turn: float) -> Manifold:
     """Return an upright bar."""
-    return bar(
-        Cylinder(np.array([*middle, bottom]), np.array([*middle, top]), radius), tolerance=TOLERANCE, turn=turn
-    )
+    return bar(Cylinder(np.array([*middle, bottom]), np.array([*middle, top]), radius), tolerance=TOLERANCE, turn=turn)
 
 
 def _label(plan: _Plan, column: int) -> Manifold:

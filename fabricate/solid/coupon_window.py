@@ -121,7 +121,7 @@ def _window(
 
 
 def _patch(surface: CutSurface, at: Floats, reach: float) -> Mask:
-    """Return the points of the surface, (n,), nearer than `reach` to a place and connected there with what is nearest."""
+    """Return the points of the surface, (n,), nearer than `reach` to a place and connected with the nearest."""
     distance = np.linalg.norm(surface.points - at, axis=1)
     near = distance < reach
     numbers = np.flatnonzero(near)

@@ -1,12 +1,12 @@
 """Numbers in raised letters: digits of seven straight strokes, as on a pocket calculator, which print at any size.
 
-         top
-        _____
-       |     |      Strokes overlap where they meet, so that a digit is one solid.
-    ul |_____| ur
-       |     |
-    ll |_____| lr
-        bottom
+     top
+    _____
+   |     |      Strokes overlap where they meet, so that a digit is one solid.
+ul |_____| ur
+   |     |
+ll |_____| lr
+    bottom
 """
 
 from __future__ import annotations

@@ -1,0 +1,76 @@
+"""Fit coupons: from a config to a folder with a small plate to print before the sculpture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from fabricate.checks.coupon_report import CouponReport, coupon_report_json
+from fabricate.checks.judged_coupon import judged_coupon
+from fabricate.config import Config, config_sha256, moved_config, resolved_toml
+from fabricate.design.field import FieldWish
+from fabricate.output.coupon_files import write_coupon
+from fabricate.output.files import write_whole
+from fabricate.output.folder import checked_place, complete_folder
+from fabricate.pipeline import Stopwatch, divided, made_solids, program_versions, read_bodies
+from fabricate.prepare.prepared import Prepared
+from fabricate.prepare.store import NOTHING_KEPT, Store
+from fabricate.process import PROCESSES
+from fabricate.solid.coupon import coupon, coupon_clearances
+
+
+def make_coupon(
+    config: Config, *, name: str, out: Path, progress: Callable[[str], None], store: Store = NOTHING_KEPT
+) -> tuple[CouponReport, ...]:
+    """Make the fit coupon of a config's sculpture in the folder `out / name`, and return what was measured of it.
+
+    With `prepare.components = "each"` every body has a coupon of its own, in `out / name-1` and so on. `progress` is
+    called with each stage's name as it begins. The `store` is that of `pipeline.run`.
+
+    Raises
+    ------
+    FabricateError
+        If the config, the mesh or the place to write is wrong, or the clearance is 0; then nothing is written.
+    """
+    checked_place(out / name)
+    coupon_clearances(config.solid.clearance)
+    watch = Stopwatch(progress)
+    bodies, field = read_bodies(config, watch=watch, store=store)
+    if config.prepare.components != "each":
+        return (_coupon(bodies[0], config, field, name=name, out=out, watch=watch, store=store),)
+    return tuple(
+        _coupon(body, config, field, name=f"{name}-{number}", out=out, watch=watch.copy(), store=store)
+        for number, body in enumerate(bodies, start=1)
+    )
+
+
+def _coupon(
+    body: Prepared,
+    config: Config,
+    field: FieldWish | None,
+    *,
+    name: str,
+    out: Path,
+    watch: Stopwatch,
+    store: Store,
+) -> CouponReport:
+    """Make the coupon of one body."""
+    tiling = divided(body, config, field, watch=watch, store=store)
+    surface, clearance = tiling.fitting.surface, config.solid.clearance
+    watch.begin("solids")
+    made = coupon(
+        surface,
+        tiling.design.duotone.joined,
+        lambda each: made_solids(surface, config, clearance=each),
+        clearance=clearance,
+        wall=PROCESSES[config.process.name].wall_min,
+    )
+    with complete_folder(out / name) as folder:
+        watch.begin("files")
+        path = write_coupon(folder, made, name=name)
+        write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
+        watch.begin("checks")
+        judged = judged_coupon(path, made)
+        report = CouponReport(name, path.name, config_sha256(config), program_versions(), judged, watch.ended())
+        write_whole(folder / "report.json", coupon_report_json(report).encode())
+    return report
