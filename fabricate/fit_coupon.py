@@ -63,6 +63,7 @@ def _coupon(
         tiling.design.duotone.joined,
         lambda each: made_solids(surface, config, clearance=each),
         clearance=clearance,
+        core=config.solid.core,
         wall=PROCESSES[config.process.name].wall_min,
     )
     with complete_folder(out / name) as folder:

@@ -23,7 +23,7 @@ from manifold3d import Manifold
 
 from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
-from fabricate.solid.assembly import Assembly
+from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.booleans import Cylinder, bar, manifold_of, part_of, united
 from fabricate.solid.coupon_places import CouponPlace, Kind, bend_places, neck_places
 from fabricate.solid.coupon_window import CouponWindow, widest_window
@@ -145,9 +145,12 @@ def coupon(
     make: Callable[[float], Assembly],
     *,
     clearance: float,
+    core: Core,
     wall: float,
 ) -> Coupon:
     """Make a fit coupon of a sculpture's surface; lengths in mm.
+
+    The solids are made for the largest clearance; those for the others have the same inner side of the wall.
 
     Parameters
     ----------
@@ -158,18 +161,20 @@ def coupon(
         Makes the solids of the surface for a clearance.
     clearance : float
         That of the sculpture.
+    core : {"hollow", "yellow", "blue"}
     wall : float
         Thinnest wall that comes out.
 
     Raises
     ------
     SolidError
-        If the clearance is 0, the largest one leaves nothing of the narrowest neck, or the surface is nowhere flat
-        enough for a piece with a flat back.
+        If the clearance is 0, the solids cannot be made with the largest one, or the surface is nowhere flat enough
+        for a piece with a flat back.
     """
     clearances = coupon_clearances(clearance)
-    made = [make(each) for each in clearances]
-    wish = _WindowWish([each.inner for each in made], clearances[-1], wall)
+    inner = make(clearances[-1]).inner
+    made = [assembly(surface, inner, clearance=each, core=core) for each in clearances]
+    wish = _WindowWish(inner, clearances[-1], wall)
     offered = neck_places(surface, joined_yellow), bend_places(surface, joined_yellow)
     windows = _first_window(surface, offered[0], wish), _first_window(surface, offered[1], wish)
     plan = _Plan(windows, tuple(map(label, clearances)), max(PLATE, wall), _room(clearances[-1]))
@@ -190,9 +195,9 @@ def coupon(
 
 
 class _WindowWish(NamedTuple):
-    """What windows are chosen for: the inner sides of all walls, the largest clearance and the thinnest wall, mm."""
+    """What windows are chosen for: the inner side of the wall, the largest clearance and the thinnest wall, mm."""
 
-    inners: Sequence[Floats]
+    inner: Floats
     clearance: float
     wall: float
 
@@ -242,12 +247,13 @@ def _first_window(surface: CutSurface, places: Sequence[CouponPlace], wish: _Win
         neck = place.kind == "neck"
         if neck and place.size < wish.clearance + 0.5 * wish.wall:
             continue
+        least = max(_room(wish.clearance) + LOOSE, 0.5 * place.size + wish.clearance + HOLD if neck else 0.0)
         window = widest_window(
             surface,
-            wish.inners,
+            wish.inner,
             place,
-            widest=float(np.clip(WIDEST * place.side, LEAST_RADIUS, MOST_RADIUS)),
-            least=max(_room(wish.clearance) + LOOSE, 0.5 * place.size + wish.clearance + HOLD if neck else 0.0),
+            widest=max(float(np.clip(WIDEST * place.side, LEAST_RADIUS, MOST_RADIUS)), least),
+            least=least,
             border=INTO_PLATE,
             rim=wish.wall,
         )

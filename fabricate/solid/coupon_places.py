@@ -64,15 +64,23 @@ def bend_places(surface: CutSurface, joined: Mask) -> tuple[CouponPlace, ...]:
     The curvature of an arc is that of the circle through its ends and its middle. Of several rings it is the one
     nearest to the corner that the arc goes round, a blue one where the tile is yellow-joined.
     """
-    last = len(surface.rings) - 1
-    inside = np.repeat(joined, 2)
-    arcs = surface.points[surface.arcs[np.where(inside, last, 0), np.arange(len(inside))]]
-    curvature = _curvatures(arcs)
+    rings = np.where(np.repeat(joined, 2), len(surface.rings) - 1, 0)
+    numbers = surface.arcs[rings, np.arange(len(rings))]
+    curvature = _curvatures(surface.points[numbers])
     chosen = np.argsort(np.abs(curvature - np.median(curvature)), kind="stable")[:MOST]
-    regions = np.where(inside, last + 1, 0)[chosen]
+    regions = rings[chosen] + ~_turns_left(surface, numbers[chosen])
     radii = 1.0 / np.maximum(curvature[chosen], np.finfo(float).tiny)
-    at = arcs[chosen, arcs.shape[1] // 2]
-    return _places("bend", surface, chosen, arcs[chosen], at=at, regions=regions, sizes=radii)
+    arcs = surface.points[numbers[chosen]]
+    return _places("bend", surface, chosen, arcs, at=arcs[:, arcs.shape[1] // 2], regions=regions, sizes=radii)
+
+
+def _turns_left(surface: CutSurface, arcs: Indices) -> Mask:
+    """Tell which arcs, (k, n + 1) point numbers, turn to the left, where the region of the lower number lies."""
+    begin, middle, end = arcs[:, 0], arcs[:, arcs.shape[1] // 2], arcs[:, -1]
+    chord = surface.points[end] - surface.points[begin]
+    inwards = surface.points[begin] + 0.5 * chord - surface.points[middle]
+    left: Mask = np.einsum("ij,ij->i", np.cross(surface.normals[middle], chord), inwards) > 0.0
+    return left
 
 
 def _curvatures(arcs: Floats) -> Floats:

@@ -11,14 +11,13 @@ so the back is flat all over, and the piece can be printed on it. Towards the ri
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from fabricate.arrays import Floats, Mask, frozen
+from fabricate.arrays import Floats, Indices, Mask, frozen
 from fabricate.solid.coupon_places import CouponPlace
 from fabricate.surface.cut import CutSurface
 
@@ -27,6 +26,9 @@ UPRIGHT = 0.7
 
 CUT_OFF = 0.02
 """How much of the wall's inner side is cut off at least, mm, so that the plane never grazes it."""
+
+ALONG = np.linspace(0.0, 1.0, 17)
+"""Where on each edge the height of a surface is looked at."""
 
 STEPS = 8
 """So many sizes are tried, from the widest to the least."""
@@ -66,7 +68,7 @@ class CouponWindow:
 
 def widest_window(
     surface: CutSurface,
-    inners: Sequence[Floats],
+    inner: Floats,
     place: CouponPlace,
     *,
     widest: float,
@@ -79,8 +81,8 @@ def widest_window(
     Parameters
     ----------
     surface : CutSurface
-    inners : sequence of (n, 3) float
-        The inner side of the wall under each point of the surface, in one or more versions.
+    inner : (n, 3) float
+        The inner side of the wall under each point of the surface.
     place : CouponPlace
     widest, least : float
         Radii between which the window's is.
@@ -89,32 +91,33 @@ def widest_window(
     rim : float
         So high is the piece at its lowest, at least.
     """
-    for radius in np.linspace(widest, max(least, 0.0), STEPS if widest > least else 1):
-        found = _window(surface, inners, place, float(radius), float(radius) + border, rim)
+    for radius in np.linspace(widest, least, STEPS).tolist():
+        found = _window(surface, inner, place, radius, radius + border, rim)
         if found is not None:
             return found
     return None
 
 
 def _window(
-    surface: CutSurface, inners: Sequence[Floats], place: CouponPlace, radius: float, reach: float, rim: float
+    surface: CutSurface, inner: Floats, place: CouponPlace, radius: float, reach: float, rim: float
 ) -> CouponWindow | None:
     patch = _patch(surface, place.at, 1.5 * reach)
     axes = _axes(surface.normals[patch].sum(axis=0), place.along)
     if axes is None:
         return None
-    outer, *inner = ((points - place.at) @ axes.T for points in (surface.points, *inners))
-    within = np.hypot(outer[:, 0], outer[:, 1]) < reach
-    own = within & patch
-    below = [points[:, 2][patch & (np.hypot(points[:, 0], points[:, 1]) < reach)] for points in inner]
-    depth = -max((each.max() for each in below if len(each)), default=0.0) - CUT_OFF
-    height = depth + float(outer[own, 2].max())
-    upright = surface.normals[own] @ axes[2]
+    triangles = surface.triangles[patch[surface.triangles].all(axis=1)]
+    outer, below = ((points - place.at) @ axes.T for points in (surface.points, inner))
+    faces, back = (_heights(each, triangles, reach) for each in (outer, below))
+    if not len(faces) or not len(back):
+        return None
+    depth = -float(back.max()) - CUT_OFF
+    height = depth + float(faces.max())
+    upright = surface.normals[patch & (np.hypot(outer[:, 0], outer[:, 1]) < reach)] @ axes[2]
     strangers = [
-        ~patch & (np.hypot(each[:, 0], each[:, 1]) < reach) & (each[:, 2] > -depth) & (each[:, 2] < height)
-        for each in (outer, *inner)
+        ~patch & (np.hypot(each[:, 0], each[:, 1]) < reach) & (each[:, 2] > -depth) & (each[:, 2] < height - depth)
+        for each in (outer, below)
     ]
-    sound = depth + float(outer[own, 2].min()) >= rim and upright.min() >= UPRIGHT
+    sound = depth + float(faces.min()) >= rim and upright.min() >= UPRIGHT
     if not sound or any(each.any() for each in strangers):
         return None
     return CouponWindow(place, axes, radius, depth, height)
@@ -132,6 +135,16 @@ def _patch(surface: CutSurface, at: Floats, reach: float) -> Mask:
     patch: Mask = np.zeros(len(near), dtype=bool)
     patch[numbers[labels == labels[distance[numbers].argmin()]]] = True
     return patch
+
+
+def _heights(points: Floats, triangles: Indices, reach: float) -> Floats:
+    """Return how high a surface is, (k,) mm, along its edges nearer to the middle than `reach`, seen from above."""
+    within = np.hypot(points[:, 0], points[:, 1]) < reach
+    touched = points[triangles[within[triangles].any(axis=1)]]
+    edges = np.roll(touched, -1, axis=1) - touched
+    places = (touched[:, :, None] + ALONG[:, None] * edges[:, :, None]).reshape(-1, 3)
+    heights: Floats = places[np.hypot(places[:, 0], places[:, 1]) < reach, 2]
+    return heights
 
 
 def _axes(up: Floats, along: Floats) -> Floats | None:
