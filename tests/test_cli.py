@@ -222,7 +222,7 @@ def test_an_interruption_is_status_130(call: Call, monkeypatch: pytest.MonkeyPat
 
 @pytest.mark.parametrize(
     "arguments",
-    [("run",), ("run", "good.toml", "--jobs", "0"), ("bogus",), ("check",), ("new",), ("--bogus",)],
+    [("run",), ("coupon",), ("run", "good.toml", "--jobs", "0"), ("bogus",), ("check",), ("new",), ("--bogus",)],
 )
 def test_wrong_usage_is_status_2(call: Call, arguments: tuple[str, ...]) -> None:
     said = call(*arguments)
@@ -248,6 +248,59 @@ def test_a_place_that_cannot_be_written_is_said_first(
     assert (said.status, said.out, made) == (2, "", [])
     assert said.err.startswith("fabricate: cannot ")
     assert said.err.count("\n") == 1
+
+
+@dataclass(frozen=True)
+class FakeJudged:
+    checks: tuple[FakeCheck, ...] = ()
+    pieces: tuple[object, ...] = ()
+
+
+@dataclass(frozen=True)
+class FakeCoupon:
+    name: str
+    judged: FakeJudged = FakeJudged()
+    ok: bool = True
+
+
+def test_a_coupon_says_one_line_and_where_it_is(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[dict[str, object]] = []
+
+    def make_coupon(config: object, **options: object) -> tuple[FakeCoupon, ...]:
+        asked.append({"config": config, **options})
+        return (FakeCoupon("good-coupon"),)
+
+    monkeypatch.setattr(cli, "make_coupon", make_coupon)
+    said = call("coupon", "good.toml", "--out", "there", "--set", "solid.clearance=0.4mm")
+    assert (said.status, said.err) == (0, "")
+    assert re.fullmatch(rf"good-coupon: ok.* -> {Path('there/good-coupon')}\n", said.out)
+    assert (asked[0]["name"], asked[0]["out"]) == ("good-coupon", Path("there"))
+    assert asked[0]["config"].solid.clearance == 0.4
+
+
+def test_a_coupon_with_a_failed_check_is_status_1_and_says_which(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    failed = FakeCoupon("good-coupon", FakeJudged(FAILED.checks), ok=False)
+    monkeypatch.setattr(cli, "make_coupon", lambda *_, **__: (failed,))
+    said = call("coupon", "good.toml")
+    assert (said.status, said.err) == (1, "")
+    assert said.out == f"good-coupon: FAILED: gap is 0.1 mm -> {Path('outputs/good-coupon')}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (("none.toml",), "no such file"),
+        (("good.toml", "--set", "solid.clearanc=1mm"), "unknown key"),
+        (("good.toml", "--set", "solid.clearance=0mm"), "solid.clearance is 0 mm"),
+    ],
+)
+def test_a_coupon_that_cannot_be_made_is_status_2_and_one_line(
+    call: Call, arguments: tuple[str, ...], reason: str
+) -> None:
+    said = call("coupon", *arguments)
+    assert (said.status, said.out, said.err.count("\n")) == (2, "", 1)
+    assert reason in said.err
+    assert not Path("outputs").exists()
 
 
 CHECKS = (
@@ -344,7 +397,7 @@ def test_version(call: Call) -> None:
 def test_help_names_every_command(call: Call) -> None:
     said = call("--help")
     assert said.status == 0
-    assert all(word in said.out for word in ("run", "check", "new", "schema", "FABRICATE_DEBUG=1"))
+    assert all(word in said.out for word in ("run", "coupon", "check", "new", "schema", "FABRICATE_DEBUG=1"))
 
 
 def test_the_module_is_the_command(tmp_path: Path) -> None:

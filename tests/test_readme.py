@@ -43,7 +43,7 @@ def test_program_is_ten_lines() -> None:
 
 def test_commands_are_known() -> None:
     commands = fabricate_commands()
-    assert {words[0] for words in commands} == {"run", "check", "inspect", "new", "schema"}
+    assert {words[0] for words in commands} == {"run", "coupon", "check", "inspect", "new", "schema"}
     for words in commands:
         shown = CliRunner().invoke(app, [words[0], "--help"]).output
         assert all(option in shown for option in words if option.startswith("--"))

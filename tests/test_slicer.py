@@ -15,6 +15,7 @@ import pytest
 
 from fabricate import pipeline
 from fabricate.config import load_config
+from fabricate.fit_coupon import make_coupon
 
 pytestmark = pytest.mark.slicer
 
@@ -142,6 +143,28 @@ def layers(gcode: str) -> list[int]:
     return [
         len(re.findall(r"^G1 X\S+ Y\S+ E\d*\.?\d+", layer, re.MULTILINE)) for layer in gcode.split(";LAYER_CHANGE")[1:]
     ]
+
+
+@pytest.fixture(scope="module")
+def plate(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("coupon")
+    path = folder / "small.toml"
+    path.write_text(CONFIG)
+    make_coupon(load_config(path), name="small-coupon", out=folder, progress=lambda _: None)
+    return folder / "small-coupon"
+
+
+def test_a_coupon_has_nothing_to_repair_and_prints_without_supports(plate: Path, tmp_path: Path) -> None:
+    facts = slicer_facts(plate / "coupon.stl")
+    assert (facts["manifold"], facts["number_of_parts"], facts["min_z"]) == ("yes", "11", "0.000000")
+    assert [key for key in REPAIRS if key in facts] == []
+    assert admesh_faults(plate / "coupon.stl") == []
+    out = tmp_path / "out.gcode"
+    automatic = ("--support-material", "--support-material-threshold", "40")
+    said = said_by(program("prusa-slicer"), "--export-gcode", *automatic, "-o", str(out), str(plate / "coupon.stl"))
+    assert "mpty layer" not in said
+    assert min(layers(out.read_text())) > 0
+    assert ";TYPE:Support" not in out.read_text()
 
 
 @pytest.mark.slow

@@ -103,6 +103,13 @@ def test_the_outer_surface_is_the_limit_surface(surface: CutSurface) -> None:
         assert made.points[block * count :][:count][away] == pytest.approx(surface.points[away], rel=1e-6, abs=1e-5)
 
 
+@pytest.mark.parametrize("core", CORES)
+@pytest.mark.parametrize("clearance", [0.0, CLEARANCE])
+def test_the_inner_side_is_the_one_that_was_asked_for(surface: CutSurface, core: Core, clearance: float) -> None:
+    made = built(surface, clearance=clearance, core=core)
+    assert made.inner == pytest.approx(surface.points - THICKNESS * surface.normals, rel=1e-6, abs=1e-5)
+
+
 def test_it_is_frozen(surface: CutSurface) -> None:
     made = built(surface)
     for array in (made.points, *made.bodies, made.gap, made.shell):
