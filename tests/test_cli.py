@@ -251,9 +251,16 @@ def test_a_place_that_cannot_be_written_is_said_first(
 
 
 @dataclass(frozen=True)
+class FakeNeck:
+    size_mm: float = 2.0
+    wanted_mm: float = 2.0
+
+
+@dataclass(frozen=True)
 class FakeJudged:
     checks: tuple[FakeCheck, ...] = ()
     pieces: tuple[object, ...] = ()
+    neck: FakeNeck = FakeNeck()
 
 
 @dataclass(frozen=True)

@@ -48,10 +48,20 @@ class CouponReport:
 
 
 def coupon_verdict(report: CouponReport) -> str:
-    """Return in one line what failed or was not measured, or which clearances are on the plate."""
-    wrong = [check.message for check in report.judged.checks if not check.ok]
-    labels = dict.fromkeys(piece.label for piece in report.judged.pieces)
-    return "; ".join(wrong) or f"ok, clearances of {', '.join(labels)} mm"
+    """Return in one line what failed or was not measured, or which clearances are on the plate.
+
+    If another neck than the narrowest is on it, that is said too.
+    """
+    judged = report.judged
+    wrong = [check.message for check in judged.checks if not check.ok]
+    labels = dict.fromkeys(piece.label for piece in judged.pieces)
+    said = wrong or [f"ok, clearances of {', '.join(labels)} mm"]
+    if judged.neck.size_mm > judged.neck.wanted_mm:
+        said.append(
+            f"note: the narrowest neck, {judged.neck.wanted_mm:.3g} mm, is too narrow for the largest clearance or lies "
+            f"where the surface bends too sharply for a flat back, so that one of {judged.neck.size_mm:.3g} mm is shown"
+        )
+    return "; ".join(said)
 
 
 def coupon_report_json(report: CouponReport) -> str:

@@ -40,6 +40,13 @@ def test_the_verdict_names_the_clearances_or_what_is_wrong() -> None:
     assert coupon_verdict(with_checks(PASSED, FAILED, SKIPPED)) == "one floats; not measured"
 
 
+def test_the_verdict_says_when_the_neck_is_not_the_narrowest() -> None:
+    other = replace(REPORT, judged=replace(JUDGED, neck=replace(PLACE, size_mm=2.5)))
+    assert "narrowest neck, 1.9 mm" in coupon_verdict(other)
+    assert "one of 2.5 mm" in coupon_verdict(other)
+    assert "note" not in coupon_verdict(REPORT)
+
+
 def test_json_holds_places_pieces_and_checks() -> None:
     content = json.loads(coupon_report_json(with_checks(PASSED, FAILED)))
     assert (content["name"], content["ok"], content["config_sha256"]) == ("ring-coupon", False, "abc")
