@@ -58,8 +58,9 @@ def coupon_verdict(report: CouponReport) -> str:
     said = wrong or [f"ok, clearances of {', '.join(labels)} mm"]
     if judged.neck.size_mm > judged.neck.wanted_mm:
         said.append(
-            f"note: the narrowest neck, {judged.neck.wanted_mm:.3g} mm, is too narrow for the largest clearance or lies "
-            f"where the surface bends too sharply for a flat back, so that one of {judged.neck.size_mm:.3g} mm is shown"
+            f"note: the narrowest neck, {judged.neck.wanted_mm:.3g} mm, is too narrow for the largest clearance or "
+            "lies where the surface bends too sharply for a flat back, "
+            f"so that one of {judged.neck.size_mm:.3g} mm is shown"
         )
     return "; ".join(said)
 
