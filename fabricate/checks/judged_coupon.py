@@ -58,8 +58,8 @@ class CouponPlaceFacts:
     size_mm : float
         Width of the neck before clearance is taken off, or radius of the bend.
     wanted_mm : float
-        Width of the narrowest neck of all, or median radius of the bends: the same, unless the surface is not flat
-        enough there.
+        Width of the narrowest neck of all, or radius of the bend nearest to the median: the same, unless no piece
+        with a flat back could be cut out there.
     window_mm : float
         Diameter of the window.
     depth_mm : float

@@ -45,7 +45,7 @@ LEAST_RADIUS, MOST_RADIUS = 5.0, 12.0
 """Between these, mm, lies the radius of a window that has room."""
 
 HOLD, LOOSE = 1.0, 1.5
-"""How much of the wall beside a neck, and of what is loose in a bend, fits into the smallest window, mm."""
+"""How much of the wall beside a neck, and of what is loose, fits into the smallest window at least, mm."""
 
 ROOM, ROOM_CLEARANCES = 0.8, 2.0
 """How far what is loose ends from the window's rim: so many mm or largest clearances, whichever is more."""
@@ -92,7 +92,7 @@ class Coupon:
     regions : int
         How many regions the sculpture has.
     wanted : mapping of str to float
-        Width of the narrowest neck of all, and median radius of the bends, mm, by the kind of place.
+        Width of the narrowest neck of all, and radius of the bend nearest to the median, mm, by the kind of place.
     """
 
     plate: Part
@@ -247,22 +247,23 @@ def _first_window(surface: CutSurface, places: Sequence[CouponPlace], wish: _Win
         neck = place.kind == "neck"
         if neck and place.size < wish.clearance + 0.5 * wish.wall:
             continue
-        least = max(_room(wish.clearance) + LOOSE, 0.5 * place.size + wish.clearance + HOLD if neck else 0.0)
+        inside = _room(wish.clearance) + max(LOOSE, wish.clearance)
+        least = max(inside, 0.5 * place.size + wish.clearance + HOLD if neck else 0.0)
         window = widest_window(
             surface,
             wish.inner,
             place,
             widest=max(float(np.clip(WIDEST * place.side, LEAST_RADIUS, MOST_RADIUS)), least),
             least=least,
-            border=INTO_PLATE,
+            border=INTO_PLATE + 2.0 * TOLERANCE,
             rim=wish.wall,
         )
         if window is not None:
             return window
     raise SolidError(
-        f"of the {len(places)} {places[0].kind}s looked at for a fit coupon none is wide enough for a clearance of "
-        f"{wish.clearance:g} mm on a surface that is flat enough there; ask for a smaller solid.clearance, a larger "
-        "solid.thickness or source.size"
+        f"a fit coupon needs a {places[0].kind} that a clearance of {wish.clearance:g} mm fits into, where the surface "
+        f"is flat enough for a piece with a flat back, and none of the {len(places)} looked at is one; ask for a "
+        "smaller solid.clearance, a larger solid.thickness or a larger source.size"
     )
 
 
@@ -290,9 +291,9 @@ def _put_together(
         for row, (window, crop) in enumerate(zip(plan.windows, row_crops, strict=True)):
             middle = plan.middle(row, column)
             openings.append(_round(middle, window.radius, -1.0, plan.thickness + 1.0, turn))
-            frame = _round(middle, window.radius + INTO_PLATE, 0.0, window.height + 1.0, turn)
+            frame = _round(middle, window.radius + INTO_PLATE, 0.0, window.height, turn)
             held += [solid ^ frame for region, solid in enumerate(crop) if region != window.place.region]
-            inside = _round(middle, window.radius - plan.room, 0.0, window.height + 1.0, turn)
+            inside = _round(middle, window.radius - plan.room, 0.0, window.height, turn)
             loose.append(_nearest_piece(crop[window.place.region] ^ inside, np.array([*middle, window.depth])))
     whole = plate - united(openings) + united(held)
     largest = max(whole.decompose(), key=lambda piece: piece.volume())

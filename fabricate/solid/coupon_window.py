@@ -3,7 +3,7 @@
 Seen from the side, the plane lies as deep under the place as the wall is thick, or less where the wall bends inwards;
 so the back is flat all over, and the piece can be printed on it. Towards the rim the surface falls:
 
-            _____            height: of the highest point above the back
+            _____            height: just above the highest point
         _--       --_
        |             |       rim: of the lowest point within the window
        |_____________|       z = 0, the back
@@ -27,6 +27,9 @@ UPRIGHT = 0.7
 CUT_OFF = 0.02
 """How much of the wall's inner side is cut off at least, mm, so that the plane never grazes it."""
 
+ABOVE = 0.05
+"""How far above the highest point the window ends, mm; up to there nothing else may come in."""
+
 ALONG = np.linspace(0.0, 1.0, 17)
 """Where on each edge the height of a surface is looked at."""
 
@@ -48,7 +51,7 @@ class CouponWindow:
     depth : float
         How deep the back lies under the place, mm.
     height : float
-        How far the highest point lies above the back, mm.
+        How far the window's upper end lies above the back, mm: just above the highest point.
     """
 
     place: CouponPlace
@@ -111,7 +114,7 @@ def _window(
     if not len(faces) or not len(back):
         return None
     depth = -float(back.max()) - CUT_OFF
-    height = depth + float(faces.max())
+    height = depth + float(faces.max()) + ABOVE
     upright = surface.normals[patch & (np.hypot(outer[:, 0], outer[:, 1]) < reach)] @ axes[2]
     strangers = [
         ~patch & (np.hypot(each[:, 0], each[:, 1]) < reach) & (each[:, 2] > -depth) & (each[:, 2] < height - depth)

@@ -158,5 +158,5 @@ def test_the_same_sculpture_gives_the_same_bytes() -> None:
 
 def test_where_no_wall_is_thick_enough_it_is_said() -> None:
     ring = subject("ring")
-    with pytest.raises(SolidError, match="none is wide enough"):
+    with pytest.raises(SolidError, match="flat enough"):
         coupon(ring.surface, ring.joined, ring.solids, clearance=CLEARANCE, core=ring.core, wall=3.0)
