@@ -12,7 +12,7 @@ from fabricate.design.field import FieldWish
 from fabricate.output.coupon_files import write_coupon
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
-from fabricate.pipeline import Stopwatch, divided, made_solids, program_versions, read_bodies
+from fabricate.pipeline import Stopwatch, divided, made_solids, program_versions, read_bodies, wanted_joint
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES
@@ -64,6 +64,8 @@ def _coupon(
         lambda each: made_solids(surface, config, clearance=each),
         clearance=clearance,
         core=config.solid.core,
+        joint=wanted_joint(config),
+        thickness=config.solid.thickness_range[0],
         wall=PROCESSES[config.process.name].wall_min,
     )
     with complete_folder(out / name) as folder:

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from fabricate.arrays import Floats
 from fabricate.checks.facts import WireFacts
 from fabricate.checks.finished import finish_facts, with_finish
+from fabricate.checks.joint_profile import joint_checks, joint_facts
 from fabricate.checks.judge import judged_parts, read_part
 from fabricate.checks.judged_wire import judged_wire
 from fabricate.checks.measured import chords, expectations, mesh_facts, pattern_facts
@@ -59,6 +60,7 @@ from fabricate.process import PROCESSES, Process
 from fabricate.solid.assembly import Assembly
 from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.finish import FinishWish, finished
+from fabricate.solid.joint import Joint
 from fabricate.solid.polygon_budget import Affordable, affordable
 from fabricate.solid.settling import fitted_cut, has_room
 from fabricate.solid.solids import solids
@@ -160,7 +162,13 @@ def divided(body: Prepared, config: Config, field: FieldWish | None, *, watch: S
 
 def made_solids(surface: CutSurface, config: Config, *, clearance: float) -> Assembly:
     """Make the parts of a config from its cut surface, with walls `clearance` mm apart."""
-    return solids(surface, thickness=_thickness(surface, config), clearance=clearance, core=config.solid.core)
+    return solids(
+        surface,
+        thickness=_thickness(surface, config),
+        clearance=clearance,
+        core=config.solid.core,
+        joint=wanted_joint(config),
+    )
 
 
 def _sculpture(
@@ -199,6 +207,7 @@ def _sculpture(
         )
         judged = judged_parts([read_part(path) for path in paths], with_finish(wanted, ready))
         pattern = pattern_facts(design, certificate, surface)
+        joint = joint_facts(surface, made, solid.joint)
         thread, alone = _judged_wire(folder, bent, process)
         watch.begin("pictures")
         write_pictures(folder, ready.parts, marks=witness_marks(ready.parts, judged.fit.pairs if judged.fit else {}))
@@ -215,10 +224,14 @@ def _sculpture(
             pattern=pattern,
             parts=judged.parts,
             fit=judged.fit,
-            checks=judged.checks + alone + share_checks(config.pattern.area_share, found=pattern.area_share["yellow"]),
+            checks=judged.checks
+            + alone
+            + joint_checks(joint, clearance=solid.clearance)
+            + share_checks(config.pattern.area_share, found=pattern.area_share["yellow"]),
             seconds=watch.ended(),
             wire=thread,
             finish=finish_facts(ready),
+            joint=joint,
         )
         write_whole(folder / "report.json", report_json(report).encode())
     return report
@@ -360,6 +373,15 @@ def _thickness(surface: CutSurface, config: Config) -> float | Floats:
     if not isinstance(wish, ThicknessConfig):
         return wish
     return varying_thickness(surface, thinnest=wish.min, thickest=wish.max, by=wish.by)
+
+
+def wanted_joint(config: Config) -> Joint:
+    """Return the joint that a config asks for, with what it leaves to what fits left open."""
+    solid = config.solid
+    asked = (solid.draft, solid.tongue.height, solid.tongue.width)
+    angle, height, width = (None if size == "auto" else size for size in asked)
+    neck = PROCESSES[config.process.name].feature_min
+    return Joint(kind=solid.joint, angle=angle, height=height, width=width, neck=neck)
 
 
 def _finish_wish(config: Config) -> FinishWish:

@@ -78,6 +78,16 @@ def peg_with_heads() -> tuple[Part, Part]:
     return peg, plate_with_hole(Manifold.cylinder(40, 5 + GAP, 5 + GAP, 64, True))
 
 
+def ridged_peg() -> tuple[Part, Part]:
+    """Return a peg in the hole of a plate, with a ridge half way down and a groove for it all round the hole."""
+
+    def ridged(radius: float, length: float) -> Manifold:
+        cones = [Manifold.cylinder(1.2, *ends, 64) for ends in ((radius, radius + 0.9), (radius + 0.9, radius))]
+        return Manifold.cylinder(length, radius, radius, 64, True) + cones[0].translate((0, 0, -1.2)) + cones[1]
+
+    return part_of(ridged(5.0, 8.0)), plate_with_hole(ridged(5.0 + GAP, 40.0))
+
+
 def peg_in_hole(*, round_one: bool) -> tuple[Part, Part]:
     """Return a peg that slides in the hole of a plate along z; a square one does not turn in it."""
     if round_one:

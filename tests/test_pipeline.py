@@ -105,7 +105,7 @@ def test_every_file_is_there_and_nothing_else(made: Path) -> None:
 def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None:
     assert set(report) == {
         *("name", "ok", "config_sha256", "versions", "mesh"),
-        *("pattern", "parts", "finish", "fit", "wire", "checks", "seconds"),
+        *("pattern", "parts", "finish", "joint", "fit", "wire", "checks", "seconds"),
     }
     assert set(report["mesh"]) == {
         *("vertices", "faces", "genus", "size_mm", "repairs", "notes", "distance_mm", "chord_mm"),
@@ -125,6 +125,8 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
         }
         assert set(part["wall_mm"]) == {"min", "median"}
     assert report["finish"] == {"openings": [], "base": None}
+    assert report["joint"]["kind"] == "straight"
+    assert report["joint"]["ridge_mm"] is None
     assert set(report["fit"]) == {
         *("clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm", "witness", "pairs"),
     }

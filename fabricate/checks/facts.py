@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 
 from fabricate.design.optimising import Change
 from fabricate.prepare.tile_quality import TileQuality
+from fabricate.solid.joint import JointKind
 
 Xyz: TypeAlias = tuple[float, float, float]
 """A point, or three lengths along the axes, mm."""
@@ -301,6 +302,27 @@ class FinishFacts:
 
     openings: tuple[OpeningFacts, ...]
     base: BaseFacts | None
+
+
+@dataclass(frozen=True)
+class JointFacts:
+    """How the facing walls run from the outer surface to the inner one, measured on the finished walls.
+
+    Attributes
+    ----------
+    kind : {"straight", "draft", "tongue"}
+    lean_deg : float
+        Median angle by which they lean, degrees, positive where the part on the left gets wider inside.
+    ridge_mm : Spread or None
+        How far the ridge stands out; None without one.
+    width_mm : float or None
+        Its median width down the wall.
+    """
+
+    kind: JointKind
+    lean_deg: float
+    ridge_mm: Spread | None = None
+    width_mm: float | None = None
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from fabricate.checks.check import Check
-from fabricate.checks.facts import FinishFacts, FitFacts, MeshFacts, PartFacts, PatternFacts, WireFacts
+from fabricate.checks.facts import FinishFacts, FitFacts, JointFacts, MeshFacts, PartFacts, PatternFacts, WireFacts
 
 __all__ = ["Check", "Report", "report_json"]
 
@@ -44,6 +44,8 @@ class Report:
         The wire along the curve, where one was asked for.
     finish : FinishFacts or None
         Openings and stand; None where nothing is known of them.
+    joint : JointFacts or None
+        How facing walls run; None where nothing is known of that.
     """
 
     name: str
@@ -57,6 +59,7 @@ class Report:
     seconds: Mapping[str, float] = field(default_factory=dict)
     wire: WireFacts | None = None
     finish: FinishFacts | None = None
+    joint: JointFacts | None = None
 
     def __post_init__(self) -> None:
         for name in ("versions", "parts", "seconds"):
@@ -88,6 +91,7 @@ def report_json(report: Report) -> str:
         "pattern": report.pattern,
         "parts": report.parts,
         "finish": report.finish,
+        "joint": report.joint,
         "fit": report.fit,
         "wire": report.wire,
         "checks": report.checks,

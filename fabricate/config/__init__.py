@@ -19,7 +19,7 @@ from fabricate.config.prepare_config import PrepareConfig
 from fabricate.config.process_config import ProcessConfig
 from fabricate.config.resolved import config_sha256, moved_config, resolved_toml
 from fabricate.config.shop_config import ShopConfig
-from fabricate.config.solid_config import SolidConfig, ThicknessConfig
+from fabricate.config.solid_config import SolidConfig, ThicknessConfig, TongueConfig
 from fabricate.config.source_config import (
     CubeConfig,
     FileConfig,
@@ -55,6 +55,7 @@ __all__ = [
     "SourceConfig",
     "SphereConfig",
     "ThicknessConfig",
+    "TongueConfig",
     "TorusConfig",
     "config_sha256",
     "load_config",

@@ -6,9 +6,13 @@ from typing import Annotated, Literal, Self, TypeAlias
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from fabricate.config.angle import Angle
 from fabricate.config.length import Length
 from fabricate.config.section import Section, wrong_value
 from fabricate.units import format_length
+
+WIDEST_TONGUE = 0.8
+"""Largest width of a tongue, as a share of the thickness."""
 
 
 class ThicknessConfig(Section):
@@ -45,6 +49,15 @@ class BaseConfig(Section):
     """By how much it lifts the sculpture."""
 
 
+class TongueConfig(Section):
+    """The rounded ridge of joint = "tongue"."""
+
+    height: Literal["auto"] | Annotated[Length, Field(gt=0)] = "auto"
+    """How far it stands out of the wall; auto: 0.4 mm or a little more than the clearance, where that fits."""
+    width: Literal["auto"] | Annotated[Length, Field(gt=0)] = "auto"
+    """How wide it is down the wall, at most 0.8 of the thickness; auto: 0.6 of it."""
+
+
 def _kind(value: object) -> str:
     return "ThicknessConfig" if isinstance(value, dict | ThicknessConfig) else "a length"
 
@@ -65,6 +78,12 @@ class SolidConfig(Section):
     """Part that keeps the inside; hollow: neither does."""
     clearance: Annotated[Length, Field(ge=0)] = 0.3
     """Gap between facing walls, 0 mm for a two-colour job; the process decides unless it is given."""
+    joint: Literal["straight", "draft", "tongue"] = "straight"
+    """How facing walls run inward: straight, leaning, or with a ridge on one part and its groove in the other."""
+    draft: Literal["auto"] | Annotated[Angle, Field(gt=-45, lt=45)] = "auto"
+    """How far the walls of joint = "draft" lean: yellow gets wider inside, or narrower if negative; auto: 3 deg."""
+    tongue: TongueConfig = Field(default=TongueConfig(), validate_default=True)
+    """Ridge of joint = "tongue", at mid-thickness."""
     tolerance: Annotated[Length, Field(gt=0)] = 0.05
     """How far the triangles may lie from the true surface."""
     openings: OpeningsConfig | None = Field(default=None, examples=[{"diameter": "3.5 mm", "count": 2}])
@@ -77,6 +96,15 @@ class SolidConfig(Section):
         if self.openings is not None and self.core != "hollow":
             message = f'expected none with core = "{self.core}", which keeps no hollow: remove one of the two'
             raise wrong_value("solid.openings", message)
+        return self
+
+    @model_validator(mode="after")
+    def _the_tongue_fits_the_wall(self) -> Self:
+        widest = WIDEST_TONGUE * self.thickness_range[0]
+        width = self.tongue.width
+        if self.joint == "tongue" and width != "auto" and width > widest:
+            limit, found = format_length(float(f"{widest:.6g}")), format_length(width)
+            raise wrong_value("solid.tongue.width", f'expected at most 0.8 of the thickness, {limit}, found "{found}"')
         return self
 
     @property

@@ -20,7 +20,18 @@ from fabricate.arrays import Floats, Indices, frozen
 from fabricate.region_names import region_names
 from fabricate.solid.facing import wall_gaps
 from fabricate.solid.floor import floor_drop, lowered
-from fabricate.solid.layers import Layer, flipped, hugging, layer, layer_shares, shares_near, wall
+from fabricate.solid.joint import STRAIGHT, Joint, asides, gently, ridges
+from fabricate.solid.layers import (
+    Layer,
+    flipped,
+    hugging,
+    layer,
+    layer_shares,
+    moved_aside,
+    shares_aside,
+    shares_near,
+    wall,
+)
 from fabricate.solid.part import Part
 from fabricate.solid.unfolding import unfolded
 from fabricate.surface.cut import CutSurface
@@ -30,6 +41,10 @@ Core: TypeAlias = Literal["hollow", "yellow", "blue"]
 
 CORRECTIONS, MOST_ADDED = 3, 1.25
 """How often walls that are too near are moved apart, and by which factor at most each time."""
+
+EASED, EASIER = {"straight": np.inf, "draft": 1.04, "tongue": 1.025}, 0.6
+"""Clearance over measured gap from which on a joint gets smaller there, and to which share each time: walls moved apart
+as far as that would leave too wide a gap."""
 
 NOTHING_MISSING = 1.01
 """Clearance over measured gap from which on walls are moved apart."""
@@ -59,6 +74,9 @@ class Assembly:
         The whole, uncut.
     surface_points : int
         Number of points of the surface.
+    levels : tuple of tuple of int
+        Where each part's copies of the surface's points begin, by region: on the outer layer, on the rings of its
+        walls, and on the inner layer.
     """
 
     points: Floats
@@ -66,6 +84,7 @@ class Assembly:
     gap: Indices
     shell: Indices
     surface_points: int
+    levels: tuple[tuple[int, ...], ...]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", frozen(self.points, np.float64, (None, 3)))
@@ -89,12 +108,23 @@ class Assembly:
         block = 2 * len(self.bodies) + 1 if len(self.gap) else 1
         return self.points[block * self.surface_points : (block + 1) * self.surface_points]
 
+    def walls(self, curve: Indices, region: int) -> Floats:
+        """Return the facing walls along a curve, (c,) int, of a region and of the next one, (2, l, c, 3) mm.
+
+        Each is l copies of the curve, from the outside in.
+        """
+        begins = np.array(self.levels[region : region + 2])
+        walls: Floats = self.points[begins[:, :, None] + curve]
+        return walls
+
     def middles(self, curve: Indices, region: int) -> Floats:
-        """Return the mid-line of the joint along a curve, (c,) int, between a region and the next one, (c, 3) mm."""
-        n = self.surface_points
-        blocks = np.arange(2 * region, 2 * region + 4) if len(self.gap) else np.arange(2)
-        middles: Floats = self.points[n * blocks[:, None] + curve].mean(axis=0)
-        return middles
+        """Return the mid-line of the joint along a curve, (c,) int, between a region and the next one, (k, 3) mm.
+
+        Of walls with a ridge it is one along each of the ridge's rings.
+        """
+        walls = self.walls(curve, region)
+        middles: Floats = walls[:, 1:-1].mean(axis=0) if walls.shape[1] > 2 else walls.mean(axis=(0, 1))
+        return middles.reshape(-1, 3)
 
     def _part(self, name: str, triangles: Indices) -> Part:
         used = np.zeros(len(self.points), dtype=bool)
@@ -103,26 +133,47 @@ class Assembly:
         return Part(name, self.points[used], number[triangles])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class _Blocks:
-    """Where a part's, or the whole's, copy of each layer begins in the array, from the outside in.
+    """Where a part's, or the whole's, copy of each layer begins in the array.
 
-    Only what has a core goes down to the floor, which is the inner layer where the parts touch.
+    Between the outer and the inner layer its walls may have rings. Only what has a core goes down to the floor, which
+    is the inner layer where the parts touch.
     """
 
-    layers: tuple[int, ...]
+    outer: int
+    inner: int
+    rings: tuple[int, ...] = ()
+    floor: int | None = None
 
     @property
-    def outer(self) -> int:
-        return self.layers[0]
+    def walls(self) -> tuple[int, ...]:
+        """From the outer layer to the inner one."""
+        return (self.outer, *self.rings, self.inner)
 
     @property
-    def inner(self) -> int:
-        return self.layers[1]
+    def layers(self) -> tuple[int, ...]:
+        """From the outside in."""
+        return self.walls if self.floor is None else (*self.walls, self.floor)
 
     @property
     def bottom(self) -> int:
         return self.layers[-1]
+
+
+@dataclass(frozen=True, eq=False)
+class _Layers:
+    """The layers of all parts; rings of the walls between the outer and the inner one; the floor of a core."""
+
+    outer: Layer
+    inner: Layer
+    rings: list[Layer]
+    floor: Layer | None
+
+    def down(self, *, to_floor: bool) -> list[Layer]:
+        """Return those that a wall runs along, from the outside in."""
+        floor = [self.floor] if to_floor and self.floor is not None else []
+        return [self.outer, *self.rings, self.inner, *floor]
 
 
 def core_region(core: Core, *, regions: int) -> int | None:
@@ -130,22 +181,34 @@ def core_region(core: Core, *, regions: int) -> int | None:
     return {"hollow": None, "yellow": 0, "blue": regions - 1}[core]
 
 
-def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core) -> Assembly:
+def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core, joint: Joint = STRAIGHT) -> Assembly:
     """Build all parts between the surface and the points `inner`, (n, 3), one under each of its points, mm."""
     n, regions = len(surface.points), len(surface.crossings) + 1
     keeper = core_region(core, regions=regions)
     if clearance == 0.0:
-        whole = _Blocks((0, n))
+        under = inner
+        if joint.kind == "draft":
+            under = moved_aside(surface, inner, asides(surface, inner, joint, clearance=0.0))
+        full = np.ones(surface.curves.shape)
+        touching = (Layer((surface.points,) * regions), Layer((under,) * regions))
+        rings = [_common(surface, ring) for ring in ridges(surface, *touching, joint, size=full, clearance=0.0)]
+        whole = _Blocks(outer=0, inner=n, rings=tuple((2 + k) * n for k in range(len(rings))))
         places = [whole] * regions
-        blocks = [surface.points, inner]
+        blocks = [surface.points, under, *rings]
     else:
-        outer, under, *floor = _layers(surface, inner, clearance=clearance, keeper=keeper)
-        blocks = [copy for pair in zip(outer.copies, under.copies, strict=True) for copy in pair]
-        blocks += [surface.points, inner, *(each.copies[keeper] for each in floor if keeper is not None)]
-        whole = _Blocks((2 * regions * n, (2 * regions + 1) * n))
-        deepest = ((2 * regions + 2) * n,)
+        found = _layers(surface, inner, clearance=clearance, keeper=keeper, joint=joint)
+        blocks = [copy for pair in zip(found.outer.copies, found.inner.copies, strict=True) for copy in pair]
+        blocks += [surface.points, inner, *(copy for ring in found.rings for copy in ring.copies)]
+        floor = len(blocks) * n if found.floor is not None else None
+        blocks += [found.floor.copies[keeper]] if found.floor is not None and keeper is not None else []
+        whole = _Blocks(outer=2 * regions * n, inner=(2 * regions + 1) * n)
         places = [
-            _Blocks((2 * region * n, (2 * region + 1) * n) + (deepest if region == keeper else ()))
+            _Blocks(
+                outer=2 * region * n,
+                inner=(2 * region + 1) * n,
+                rings=tuple((2 * regions + 2 + regions * k + region) * n for k in range(len(found.rings))),
+                floor=floor if region == keeper else None,
+            )
             for region in range(regions)
         ]
     faces = [_faces(surface, at, region, keeper) for region, at in enumerate(places)]
@@ -157,11 +220,12 @@ def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core
         else np.zeros((0, 3), dtype=np.int64),
         _shell(surface, whole, keeper),
         n,
+        tuple(each.walls for each in places),
     )
 
 
-def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int | None) -> list[Layer]:
-    """Return the outer layer, the inner one and, for a core, the floor.
+def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int | None, joint: Joint) -> _Layers:
+    """Return all layers.
 
     Where walls lean or twist they are nearer to each other than their edges: there the edges are moved
     further apart, by as much as is missing, a few times; likewise a floor is lowered.
@@ -170,16 +234,23 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
     drop = floor_drop(inner, surface.triangles, down, clearance=clearance)
     depth = np.linalg.norm(inner - surface.points, axis=1)
     nearness = np.clip((clearance - depth[surface.curves]) / (CLOSE * clearance), 0.0, 1.0)
-    wanted = np.full(surface.curves.shape, clearance)
-    for _ in range(CORRECTIONS):
+    aside = asides(surface, inner, joint, clearance=clearance) if joint.kind == "draft" else ()
+    wanted, size = np.full(surface.curves.shape, clearance), np.ones(surface.curves.shape)
+    for step in range(CORRECTIONS):
         levels = [surface.points, inner] + ([] if keeper is None else [inner + drop[:, None] * down])
-        outer, inner_own, *floor_own = [layer_shares(surface, points, down, clearance=wanted) for points in levels]
-        outer = unfolded(surface, surface.points, outer)
-        drawn = tuple(
-            shares_near(above, own, nearness=near) for above, own, near in zip(outer, inner_own, nearness, strict=True)
+        outer_own, *under = [layer_shares(surface, points, down, clearance=wanted) for points in levels]
+        outer_own = unfolded(surface, surface.points, outer_own)
+        under[0] = tuple(
+            shares_near(above, own, nearness=near)
+            for above, own, near in zip(outer_own, under[0], nearness, strict=True)
         )
-        layers = [layer(surface, *each) for each in zip(levels, [outer, drawn, *floor_own], strict=True)]
-        layers[1] = hugging(surface, layers[0], layers[1], depth=depth)
+        if joint.kind == "draft":
+            eased = [share * full for share, full in zip(size, aside, strict=True)]
+            under = [shares_aside(surface, *each, asides=eased) for each in zip(levels[1:], under, strict=True)]
+        outer, lower, *floor = [layer(surface, *each) for each in zip(levels, [outer_own, *under], strict=True)]
+        lower = hugging(surface, outer, lower, depth=depth)
+        rings = ridges(surface, outer, lower, joint, size=size, clearance=clearance)
+        layers = _Layers(outer, lower, rings, floor[0] if floor else None)
         missing = clearance / np.maximum(_wall_gaps(surface, layers, keeper), 1e-9)
         short = (missing > NOTHING_MISSING).any()
         if keeper is not None:
@@ -188,26 +259,42 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
             drop = deeper
         if not short:
             break
-        wanted = wanted * np.clip(_widened(missing), 1.0, MOST_ADDED)
+        ease = EASED[joint.kind] if step < CORRECTIONS - 2 else np.inf
+        size = _eased(size, missing, ease=ease)
+        wanted = wanted * np.clip(_widened(missing), 1.0, min(MOST_ADDED, ease))
     return layers
 
 
-def _deeper(surface: CutSurface, layers: list[Layer], drop: Floats, *, keeper: int, clearance: float) -> Floats:
+def _eased(size: Floats, missing: Floats, *, ease: float) -> Floats:
+    """Return the size of a joint along each curve, (k, c) as shares, smaller where more of the gap is missing there."""
+    tight = missing > ease
+    return np.stack([gently(each) for each in size * np.where(tight, EASIER, 1.0)]) if tight.any() else size
+
+
+def _common(surface: CutSurface, ring: Layer) -> Floats:
+    """Return a ring of parts that touch, whose copies are the same, as one, (n, 3); only curves have points there."""
+    points = np.zeros_like(surface.points)
+    for copy, curve in zip(ring.copies, surface.curves, strict=False):
+        points[curve] = copy[curve]
+    return points
+
+
+def _deeper(surface: CutSurface, layers: _Layers, drop: Floats, *, keeper: int, clearance: float) -> Floats:
     """Return how far the floor has to lie below the inner points for the clearance under every other part, (n,) mm."""
-    floor = layers[2].copies[keeper]
     deeper = drop
-    for region, ceiling in enumerate(layers[1].copies):
-        if region != keeper:
+    for region, ceiling in enumerate(layers.inner.copies):
+        if region != keeper and layers.floor is not None:
+            floor = layers.floor.copies[keeper]
             inlaid = surface.triangles[surface.regions == region]
             deeper = np.maximum(deeper, lowered(drop, ceiling, floor, inlaid, clearance=clearance))
     return deeper
 
 
-def _wall_gaps(surface: CutSurface, layers: list[Layer], keeper: int | None) -> Floats:
+def _wall_gaps(surface: CutSurface, layers: _Layers, keeper: int | None) -> Floats:
     """Return how far apart the walls are beside each curve point, (k, c); only a core's goes down to the floor."""
 
     def wall_edges(region: int, curve: Indices) -> list[Floats]:
-        return [each.copies[region][curve] for each in (layers if region == keeper else layers[:2])]
+        return [each.copies[region][curve] for each in layers.down(to_floor=region == keeper)]
 
     sides = [(wall_edges(number, curve), wall_edges(number + 1, curve)) for number, curve in enumerate(surface.curves)]
     return np.stack([wall_gaps(left, right) for left, right in sides])

@@ -117,7 +117,7 @@ def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearanc
     slants = _slants(sides, normals)
     room = np.maximum(np.stack([length * slant for length, slant in zip(lengths, slants, strict=True)]), 1e-9)
     crowded = np.clip(ROOMY - room.min(axis=0) / wanted, 0.0, 1.0)
-    part = _smoothed(0.5 + crowded * (room[0] / room.sum(axis=0) - 0.5))
+    part = smoothed(0.5 + crowded * (room[0] / room.sum(axis=0) - 0.5))
     way = wanted * np.stack([part, 1.0 - part]) / room
     suspects = np.arange(len(normals))
     copies = np.empty_like(normals), np.empty_like(normals)
@@ -128,7 +128,7 @@ def clearance_shares(sides: RaySides, normals: Floats, down: Floats, *, clearanc
         near = too_near(copies, WANTED * wanted, suspects=suspects) & (way < FARTHEST).any(axis=0)
         if not near.any():
             break
-        pushed = _smoothed(near.astype(np.float64))
+        pushed = smoothed(near.astype(np.float64))
         way = way * (1.0 + (PUSH - 1.0) * np.minimum(2.0 * pushed, 1.0))
         suspects = np.flatnonzero(pushed)
     return shares
@@ -138,7 +138,20 @@ def _uprightness(curve: Floats, normals: Floats, down: Floats) -> Floats:
     """Return the cosine by which walls that lean across the curve are nearer than their copies of the curve."""
     tangent = unit(np.roll(curve, -1, axis=0) - np.roll(curve, 1, axis=0))
     lean = np.einsum("ij,ij->i", down, np.cross(normals, tangent))
-    return _smoothed(np.sqrt(np.maximum(1.0 - lean**2, LEAST_UPRIGHT**2)))
+    return smoothed(np.sqrt(np.maximum(1.0 - lean**2, LEAST_UPRIGHT**2)))
+
+
+def shifted(shares: Shares, sides: RaySides, normals: Floats, *, aside: Floats) -> Shares:
+    """Return the shares of two copies that have both moved aside along their rays, to the right, by (c,) mm across.
+
+    `normals` are the surface's at the curve's points. A copy that has moved beyond the curve has a negative share: of
+    the half-ray on the curve's other side, which may lead across at another slant.
+    """
+    pairs = zip(sides, _slants(sides, normals), strict=True)
+    left, right = (half_length(side) * slant for side, slant in pairs)
+    from_left, from_right = shares.left * left - aside, shares.right * right + aside
+    moved = (from_left / np.where(from_left < 0.0, right, left), from_right / np.where(from_right < 0.0, left, right))
+    return Shares(*(np.clip(each, -FARTHEST, FARTHEST) for each in moved))
 
 
 def along(side: Floats, shares: Floats) -> Floats:
@@ -208,7 +221,7 @@ def _nearest(queries: Floats, chains: Floats) -> Floats:
     return nearest
 
 
-def _smoothed(values: Floats) -> Floats:
+def smoothed(values: Floats) -> Floats:
     """Return the values along the closed curve, averaged with their neighbours a few times."""
     for _ in range(SMOOTHING):
         values = 0.5 * values + 0.25 * (np.roll(values, 1) + np.roll(values, -1))

@@ -27,6 +27,7 @@ from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.booleans import Cylinder, bar, manifold_of, part_of, united
 from fabricate.solid.coupon_places import CouponPlace, Kind, bend_places, neck_places
 from fabricate.solid.coupon_window import CouponWindow, widest_window
+from fabricate.solid.joint import STRAIGHT, Joint, fitted_joint
 from fabricate.solid.lettering import raised_text, text_width
 from fabricate.solid.part import Part, joined
 from fabricate.surface.cut import CutSurface
@@ -146,6 +147,8 @@ def coupon(
     *,
     clearance: float,
     core: Core,
+    joint: Joint = STRAIGHT,
+    thickness: float = 0.0,
     wall: float,
 ) -> Coupon:
     """Make a fit coupon of a sculpture's surface; lengths in mm.
@@ -162,6 +165,10 @@ def coupon(
     clearance : float
         That of the sculpture.
     core : {"hollow", "yellow", "blue"}
+    joint : Joint
+        As the sculpture is to have it; what it leaves open is fitted as for the sculpture's own clearance.
+    thickness : float
+        Of the thinnest walls; straight joints do not need it.
     wall : float
         Thinnest wall that comes out.
 
@@ -173,7 +180,8 @@ def coupon(
     """
     clearances = coupon_clearances(clearance)
     inner = make(clearances[-1]).inner
-    made = [assembly(surface, inner, clearance=each, core=core) for each in clearances]
+    own = fitted_joint(surface, inner, joint, thickness=thickness, clearance=clearance)
+    made = [assembly(surface, inner, clearance=each, core=core, joint=own) for each in clearances]
     wish = _WindowWish(inner, clearances[-1], wall)
     offered = neck_places(surface, joined_yellow), bend_places(surface, joined_yellow)
     windows = _first_window(surface, offered[0], wish), _first_window(surface, offered[1], wish)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fabricate.arrays import Floats, Indices
-from fabricate.solid.clearance import Shares, along, clearance_shares, ray_sides
+from fabricate.solid.clearance import Shares, along, clearance_shares, half_length, ray_sides, shifted
 from fabricate.solid.inset import straight_down
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import vertex_normals
@@ -47,6 +47,15 @@ def shares_near(upper: Shares, lower: Shares, *, nearness: Floats) -> Shares:
     return Shares(*(own + nearness * (above - own) for above, own in zip(upper, lower, strict=True)))
 
 
+def shares_aside(
+    surface: CutSurface, points: Floats, shares: Sequence[Shares], *, asides: Sequence[Floats]
+) -> tuple[Shares, ...]:
+    """Return the shares of each curve at `points`, (n, 3) mm, moved aside along the rays, by (c,) mm across each."""
+    normals = vertex_normals(points, surface.triangles)
+    curves = zip(shares, ray_sides(surface, points), surface.curves, asides, strict=True)
+    return tuple(shifted(own, sides, normals[curve], aside=aside) for own, sides, curve, aside in curves)
+
+
 def layer(surface: CutSurface, points: Floats, shares: Sequence[Shares]) -> Layer:
     """Return the copies of the surface moved to `points`, (n, 3) mm, apart by what the shares of each curve say.
 
@@ -56,8 +65,8 @@ def layer(surface: CutSurface, points: Floats, shares: Sequence[Shares]) -> Laye
     copies = tuple(points.copy() for _ in range(len(shares) + 1))
     curves = zip(surface.half_rays, ray_sides(surface, points), shares, strict=True)
     for number, (half_rays, sides, share) in enumerate(curves):
-        copies[number][half_rays.left] = _closed_up(sides.left, share.left)
-        copies[number + 1][half_rays.right] = _closed_up(sides.right, share.right)
+        copies[number][half_rays.left] = _closed_up(sides.left, sides.right, share.left)
+        copies[number + 1][half_rays.right] = _closed_up(sides.right, sides.left, share.right)
     return Layer(copies)
 
 
@@ -78,12 +87,32 @@ def hugging(surface: CutSurface, upper: Layer, lower: Layer, *, depth: Floats) -
     return Layer(tuple(copies))
 
 
-def _closed_up(side: Floats, share: Floats) -> Floats:
-    """Return the half-rays' points, (c, l + 1, 3), moved on so that they begin at `share` of the length."""
+def moved_aside(surface: CutSurface, points: Floats, asides: Sequence[Floats]) -> Floats:
+    """Return the points, (n, 3) mm, when each curve moves along its rays, to the right, by (c,) mm across each."""
+    moved = points.copy()
+    nowhere = [Shares(np.zeros_like(aside), np.zeros_like(aside)) for aside in asides]
+    shares = shares_aside(surface, points, nowhere, asides=asides)
+    for half_rays, sides, share in zip(surface.half_rays, ray_sides(surface, points), shares, strict=True):
+        moved[half_rays.left] = _closed_up(sides.left, sides.right, share.left)
+        moved[half_rays.right] = _closed_up(sides.right, sides.left, share.right)
+    return moved
+
+
+def _closed_up(side: Floats, other: Floats, share: Floats) -> Floats:
+    """Return the half-rays' points, (c, l + 1, 3), moved on so that they begin at `share` of the length.
+
+    Of a negative share it is the length of the half-ray on the other side, which is entered from the curve.
+    """
     steps = np.linalg.norm(np.diff(side, axis=1), axis=2)
     reached = np.concatenate([np.zeros((len(side), 1)), np.cumsum(steps, axis=1)], axis=1)
     fraction = reached / np.maximum(reached[:, -1:], np.finfo(float).tiny)
-    return along(side, share[:, None] + (1.0 - share[:, None]) * fraction)
+    if not (share < 0.0).any():
+        return along(side, share[:, None] + (1.0 - share[:, None]) * fraction)
+    ratio = half_length(other) / np.maximum(reached[:, -1], np.finfo(float).tiny)
+    begin = np.where(share < 0.0, share * ratio, share)[:, None]
+    shares = begin + (1.0 - begin) * fraction
+    beyond = np.maximum(-shares / np.maximum(ratio, np.finfo(float).tiny)[:, None], 0.0)
+    return np.where(shares[:, :, None] < 0.0, along(other, beyond), along(side, np.maximum(shares, 0.0)))
 
 
 def wall(curve: Indices, lower: int, upper: int) -> Indices:

@@ -22,6 +22,7 @@ from fabricate.solid.inset import (
     straight_down,
     ways_in,
 )
+from fabricate.solid.joint import STRAIGHT, Joint, fitted_joint
 from fabricate.solid.thick_enough import check_thick
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import neighbour_means
@@ -38,7 +39,14 @@ CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
 
 
-def solids(surface: CutSurface, *, thickness: float | Floats, clearance: float, core: Core = "hollow") -> Assembly:
+def solids(
+    surface: CutSurface,
+    *,
+    thickness: float | Floats,
+    clearance: float,
+    core: Core = "hollow",
+    joint: Joint = STRAIGHT,
+) -> Assembly:
     """Make the yellow and the blue solid, `thickness` mm deep with walls `clearance` mm apart.
 
     The thickness is the same everywhere, or (n,), one under each point of the surface.
@@ -48,7 +56,7 @@ def solids(surface: CutSurface, *, thickness: float | Floats, clearance: float, 
     ------
     SolidError
         If the thickness is not positive, the clearance is negative or as wide as the necks or as most of the body is
-        thick, or the surface crosses itself.
+        thick, or the surface crosses itself, or the joint does not fit.
     """
     thinnest, thickest = float(np.min(thickness)), float(np.max(thickness))
     _check_sizes(surface, thinnest, clearance)
@@ -59,12 +67,13 @@ def solids(surface: CutSurface, *, thickness: float | Floats, clearance: float, 
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
     straight = SAFE_DEPTH * thinnest * straight_down(surface.points, surface.triangles)
+    fitted = fitted_joint(surface, inner, joint, thickness=thinnest, clearance=clearance)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
     times = np.zeros(len(inner), dtype=np.int64)
     fewest, waited = np.full(2, len(inner)), 0
     for step in range(ALL_ROUNDS):
-        made = assembly(surface, inner, clearance=clearance, core=core)
+        made = assembly(surface, inner, clearance=clearance, core=core, joint=fitted)
         stuck = waited >= UNHEEDED
         all_kinds = step < RETREAT_FROM or stuck
         crossing, near = _faults(made, clearance, moved | stuck, all_kinds=all_kinds)

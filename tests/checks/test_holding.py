@@ -7,7 +7,19 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from joints import GAP, ball, case, curved_peg, half_balls, part_of, peg_in_hole, peg_with_heads, spacing, turned
+from joints import (
+    GAP,
+    ball,
+    case,
+    curved_peg,
+    half_balls,
+    part_of,
+    peg_in_hole,
+    peg_with_heads,
+    ridged_peg,
+    spacing,
+    turned,
+)
 from manifold3d import Manifold
 
 from fabricate.checks.facts import Play
@@ -37,7 +49,7 @@ def test_a_slanted_peg_comes_out_too() -> None:
     assert held(peg, plate).verdict == "separable"
 
 
-@pytest.mark.parametrize("joint", [peg_with_heads(), (ball(10.0), case(10.0 + GAP))])
+@pytest.mark.parametrize("joint", [peg_with_heads(), ridged_peg(), (ball(10.0), case(10.0 + GAP))])
 def test_what_is_caught_has_a_witness(joint: tuple[Part, Part]) -> None:
     found = held(*joint)
     assert found.verdict == "captive"

@@ -88,8 +88,8 @@ def test_keys_are_those_of_the_contract() -> None:
         report(gap=Gap(0.29, (1.0, 2.0, 3.0), 0.2901, 0.31, (4.0, 5.0, 6.0)), play=Play(0.6, 0.6, 0.6, 1.0, 2.0, 3.0))
     )
     assert list(found) == [
-        "name", "ok", "config_sha256", "versions", "mesh", "pattern", "parts", "finish", "fit", "wire", "checks",
-        "seconds",
+        "name", "ok", "config_sha256", "versions", "mesh", "pattern", "parts", "finish", "joint", "fit", "wire",
+        "checks", "seconds",
     ]  # fmt: skip
     assert found["mesh"] == {
         "vertices": 8, "faces": 6, "genus": 0, "size_mm": [10, 20, 30],

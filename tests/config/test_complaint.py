@@ -117,6 +117,14 @@ MISTAKES = [
         TORUS + '[solid]\nopenings = { diameter = "3 mm", count = 0 }', ("solid.openings.count", "at least 1", "0")
     ),
     Mistake(TORUS + '[solid]\ncore = "blue"\nopenings = { diameter = "3 mm" }', ("solid.openings", 'core = "blue"')),
+    Mistake(TORUS + '[solid]\njoint = "toungue"', ("solid.joint", '"straight", "draft", "tongue"', "tongue")),
+    Mistake(TORUS + "[solid]\ndraft = 3", ("solid.draft", "deg")),
+    Mistake(TORUS + '[solid]\ndraft = "50 deg"', ("solid.draft", "less than 45 deg")),
+    Mistake(TORUS + '[solid]\ntongue = { height = "0 mm" }', ("solid.tongue.height", "more than 0 mm")),
+    Mistake(
+        TORUS + '[solid]\njoint = "tongue"\nthickness = "1 mm"\ntongue = { width = "1.2 mm" }',
+        ("solid.tongue.width", "0.8 mm", "1.2 mm"),
+    ),
     Mistake(TORUS + "[solid]\nopenings = 3", ("solid.openings", "a table of diameter, count", "found 3")),
     Mistake(TORUS + '[solid]\nbase = { heigth = "3 mm" }', ("solid.base.heigth", "did you mean height?")),
     Mistake(TORUS + '[solid]\nthickness = "50 mm"', ("solid.thickness", "half the size", "50 mm")),
