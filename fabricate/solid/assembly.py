@@ -40,11 +40,14 @@ from fabricate.triangles.normals import unit
 Core: TypeAlias = Literal["hollow", "yellow", "blue"]
 
 CORRECTIONS, MOST_ADDED = 3, 1.25
-"""How often walls that are too near are moved apart, and by which factor at most each time."""
+"""How often walls are measured to move apart what is too near, and by which factor they move at most each time."""
+
+EASINGS = {"straight": 0, "draft": 1, "tongue": 3}
+"""How often before that joints become smaller where walls are too near."""
 
 EASED, EASIER = {"straight": np.inf, "draft": 1.04, "tongue": 1.025}, 0.6
-"""Clearance over measured gap from which on a joint gets smaller there, and to which share each time: walls moved apart
-as far as that would leave too wide a gap."""
+"""Clearance over measured gap from which on a joint gets smaller, and to which share each time: walls moved apart as
+far as that would leave too wide a gap."""
 
 NOTHING_MISSING = 1.01
 """Clearance over measured gap from which on walls are moved apart."""
@@ -236,7 +239,8 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
     nearness = np.clip((clearance - depth[surface.curves]) / (CLOSE * clearance), 0.0, 1.0)
     aside = asides(surface, inner, joint, clearance=clearance) if joint.kind == "draft" else ()
     wanted, size = np.full(surface.curves.shape, clearance), np.ones(surface.curves.shape)
-    for step in range(CORRECTIONS):
+    easings = EASINGS[joint.kind]
+    for step in range(easings + CORRECTIONS):
         levels = [surface.points, inner] + ([] if keeper is None else [inner + drop[:, None] * down])
         outer_own, *under = [layer_shares(surface, points, down, clearance=wanted) for points in levels]
         outer_own = unfolded(surface, surface.points, outer_own)
@@ -259,7 +263,7 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
             drop = deeper
         if not short:
             break
-        ease = EASED[joint.kind] if step < CORRECTIONS - 2 else np.inf
+        ease = EASED[joint.kind] if step < easings else np.inf
         size = _eased(size, missing, ease=ease)
         wanted = wanted * np.clip(_widened(missing), 1.0, min(MOST_ADDED, ease))
     return layers
