@@ -23,7 +23,7 @@ from fabricate.triangles.crossing import crossing_triangles
 
 THICKNESS = 2.4
 PUSHED = 0.6
-DRAFT = Joint(kind="draft", angle=8.0)
+DRAFT = Joint(kind="draft", angle=6.0)
 TONGUE = Joint(kind="tongue", height=0.35, width=1.2)
 JOINTS = {"straight": STRAIGHT, "draft": DRAFT, "inward": Joint(kind="draft", angle=-5.0), "tongue": TONGUE}
 
