@@ -9,14 +9,18 @@ from fabricate.checks.coupon_report import CouponReport, coupon_report_json
 from fabricate.checks.judged_coupon import judged_coupon
 from fabricate.config import Config, config_sha256, moved_config, resolved_toml
 from fabricate.design.field import FieldWish
+from fabricate.dividing import divided, read_bodies
 from fabricate.output.coupon_files import write_coupon
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
-from fabricate.pipeline import Stopwatch, divided, made_solids, program_versions, read_bodies, wanted_joint
+from fabricate.pipeline import made_solids
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES
 from fabricate.solid.coupon import coupon, coupon_clearances
+from fabricate.stopwatch import Stopwatch
+from fabricate.versions import program_versions
+from fabricate.wishes import joint_wish
 
 
 def make_coupon(
@@ -64,7 +68,7 @@ def _coupon(
         lambda each: made_solids(surface, config, clearance=each),
         clearance=clearance,
         core=config.solid.core,
-        joint=wanted_joint(config),
+        joint=joint_wish(config),
         thickness=config.solid.thickness_range[0],
         wall=PROCESSES[config.process.name].wall_min,
     )

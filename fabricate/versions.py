@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import platform
 from importlib.metadata import PackageNotFoundError, version
 
 
@@ -11,3 +12,11 @@ def installed_version(name: str) -> str:
         return version(name)
     except PackageNotFoundError:
         return "none"
+
+
+LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf", "pymeshlab", "pyquadriflow")
+
+
+def program_versions() -> dict[str, str]:
+    """Return the version of each program that takes part."""
+    return {"python": platform.python_version(), **{name: installed_version(name) for name in LIBRARIES}}

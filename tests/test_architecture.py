@@ -14,7 +14,7 @@ PACKAGE = Path(next(iter(fabricate.__path__)))
 TESTS = Path(__file__).parent
 
 ROWS = [
-    {"errors", "units", "arrays", "versions", "process", "region_names", "config"},
+    {"errors", "units", "arrays", "versions", "stopwatch", "process", "region_names", "config"},
     {"triangles"},
     {"mesh"},
     {"formats"},
@@ -26,6 +26,7 @@ ROWS = [
     {"checks"},
     {"picture"},
     {"output"},
+    {"wishes", "dividing"},
     {"pipeline"},
     {"fit_coupon"},
     {"batch"},

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from mesh_bytes import ply_with_values
 
-from fabricate import pipeline
+from fabricate import dividing, pipeline
 from fabricate.checks.report import Report
 from fabricate.cli import main
 from fabricate.config import load_config
@@ -448,7 +448,7 @@ def test_a_field_of_the_file_and_locks_make_a_pair(tmp_path: Path, monkeypatch: 
         asked.append((quads, wish))
         return designed(quads, wish, progress=progress)
 
-    monkeypatch.setattr(pipeline, "designed", listening)
+    monkeypatch.setattr(dividing, "designed", listening)
     report = run(path, tmp_path / "out")
     assert not failed(report, with_printability=False)
     assert report.pattern is not None

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fabricate.versions import installed_version
+from fabricate.versions import LIBRARIES, installed_version, program_versions
 
 
 def test_what_is_installed_has_its_version() -> None:
@@ -11,3 +11,9 @@ def test_what_is_installed_has_its_version() -> None:
 
 def test_what_is_not_has_none() -> None:
     assert installed_version("no-such-distribution") == "none"
+
+
+def test_every_program_that_takes_part_has_a_version() -> None:
+    versions = program_versions()
+    assert {"python", *LIBRARIES} == set(versions)
+    assert "none" not in versions.values()

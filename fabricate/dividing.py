@@ -1,0 +1,102 @@
+"""The first half of the line: from a config to bodies divided by their curves."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import NamedTuple
+
+from fabricate.checks.shop import most_polygons
+from fabricate.config import Config, FileConfig
+from fabricate.design.area_share import shared_cut
+from fabricate.design.designed import Design, designed, grown
+from fabricate.design.field import FieldWish
+from fabricate.duotone.duotone import Duotone
+from fabricate.errors import MeshError
+from fabricate.formats.field_source import field_source
+from fabricate.formats.limits import ReadLimits
+from fabricate.formats.source import source_mesh
+from fabricate.mesh.closed import genus
+from fabricate.mesh.polygon_mesh import PolygonMesh
+from fabricate.prepare.prepared import Prepared, prepared
+from fabricate.prepare.store import Store
+from fabricate.solid.detailed import detailed_cut
+from fabricate.solid.polygon_budget import Affordable, affordable
+from fabricate.solid.settling import fitted_cut, has_room
+from fabricate.stopwatch import Stopwatch
+from fabricate.surface.cut import CutSurface
+from fabricate.surface.tile_choice import chosen_tiling
+from fabricate.surface.tiling import Tiling
+from fabricate.wishes import curve_wish, in_place, tile_wish
+
+
+def read_bodies(config: Config, *, watch: Stopwatch, store: Store) -> tuple[tuple[Prepared, ...], FieldWish | None]:
+    """Read what a config divides; return its bodies, ready to be divided, and the field if it has one."""
+    watch.begin("read")
+    prepare = config.prepare
+    limits = ReadLimits(max_bytes=prepare.max_file_mb << 20, max_faces=prepare.max_faces)
+    mesh = source_mesh(config.source, limits=limits)
+    field = _field(config, limits)
+    watch.begin("prepare")
+    return _bodies(mesh, config, store), field
+
+
+def _bodies(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, ...]:
+    prepare = config.prepare
+    try:
+        return prepared(mesh, repair=prepare.repair, components=prepare.components, crease=prepare.crease, store=store)
+    except MeshError as error:
+        if isinstance(config.source, FileConfig):
+            raise MeshError(f"{config.source.file}: {error}") from None
+        raise
+
+
+def _field(config: Config, limits: ReadLimits) -> FieldWish | None:
+    if config.field is None:
+        return None
+    return FieldWish(config.field, field_source(config.field, config.source, limits=limits))
+
+
+class Divided(NamedTuple):
+    """A body divided by its curve: its tiles, what bound their size, the curve, and the cut surface."""
+
+    tiling: Tiling
+    limit: tuple[str, ...]
+    design: Design
+    fitting: Affordable
+
+
+def divided(body: Prepared, config: Config, field: FieldWish | None, *, watch: Stopwatch, store: Store) -> Divided:
+    """Divide one body as a config asks: tiles, curve and cut."""
+    solid = config.solid
+    watch.begin("quads")
+    wish, limit = tile_wish(config, body)
+    curve = curve_wish(config, field, genus=genus(body.mesh), neck=wish.neck)
+    own = in_place(curve, body, wish)
+    tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=own), progress=watch.tell, store=store)
+    watch.begin("duotone")
+    design = designed(tiling.quads, in_place(curve, body, wish, tiling), progress=watch.tell)
+    watch.begin("cut")
+    fitting = affordable(
+        partial(_surface, design.duotone, tiling, config),
+        tolerance=solid.tolerance,
+        core=solid.core,
+        budget=None if config.process.shop is None else most_polygons(config.process.shop),
+    )
+    return Divided(tiling, limit, design, fitting)
+
+
+def _surface(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float) -> CutSurface:
+    """Return the cut surface, by a tolerance, mm, with the rings asked for or the one that the area share needs."""
+    make, share = partial(_cut, duotone, tiling, config, tolerance), config.pattern.area_share
+    if share is None:
+        return make(config.pattern.positions)
+    room = partial(has_room, clearance=config.solid.clearance)
+    return shared_cut(duotone, share=share, make=make, fits=room)
+
+
+def _cut(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float, rings: tuple[float, ...]) -> CutSurface:
+    """Return the cut surface, with the detail of the input where new cells were made for it."""
+    clearance = config.solid.clearance
+    if tiling.surface is None or config.prepare.detail == "smooth":
+        return fitted_cut(duotone, rings=rings, tolerance=tolerance, clearance=clearance)
+    return detailed_cut(duotone, tiling.surface, rings=rings, tolerance=tolerance, clearance=clearance)
