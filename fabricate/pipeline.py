@@ -57,21 +57,27 @@ from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES, Process
 from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.finish import FinishWish, finished
+from fabricate.solid.neck_depth import thickness_for_necks
 from fabricate.solid.polygon_budget import affordable
 from fabricate.solid.settling import fitted_cut, has_room
 from fabricate.solid.solids import solids
+from fabricate.solid.thick_enough import check_thick
 from fabricate.solid.thickness import varying_thickness
 from fabricate.solid.wire import Wire, wire
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.cut_certificate import cut_certificate
-from fabricate.surface.tile_choice import TileWish, chosen_tiling, tile_scale
+from fabricate.surface.tile_choice import TileWish, chosen_tiling, sized_surface, tile_scale
 from fabricate.surface.tiling import Tiling
 from fabricate.versions import installed_version
 
 LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf", "pymeshlab", "pyquadriflow")
 
-NECK_MARGIN = 1.05
-"""How much wider necks are asked for than the process needs: on the finished surface they may be a little narrower."""
+NECK_MARGIN = 1.1
+"""How much wider necks are asked for than the process needs: on the finished surface they may be a little narrower, and
+gaps between walls that lean or twist are up to a fifth wider than the clearance."""
+
+LEAST_WALL = 1.25
+"""Least thickness that walls keep where they are made shallower for the sake of necks, in the process's thinnest."""
 
 
 def run(
@@ -136,7 +142,9 @@ def _sculpture(
     solid, process = config.solid, PROCESSES[config.process.name]
     watch.begin("quads")
     wish, limit = _wish(config, body)
-    curve = _curve_wish(config, field, genus=genus(body.mesh), neck=wish.neck)
+    whole = sized_surface(body.mesh, wish)
+    check_thick(whole.points, whole.triangles, clearance=solid.clearance)
+    curve = _curve_wish(config, field, genus=genus(body.mesh), neck=wish.neck, depth=wish.depth)
     own = _in_place(curve, body, wish)
     tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=own), progress=watch.tell, store=store)
     watch.begin("duotone")
@@ -152,7 +160,8 @@ def _sculpture(
     surface, coarser = fitting.surface, fitting.tolerance > solid.tolerance
     certificate = cut_certificate(surface)
     watch.begin("solids")
-    made = solids(surface, thickness=_thickness(surface, config), clearance=solid.clearance, core=solid.core)
+    thickness = _thickness(surface, config, neck=wish.neck)
+    made = solids(surface, thickness=thickness, clearance=solid.clearance, core=solid.core)
     ready = finished(surface, made, _finish_wish(config))
     bent = _wire(surface, config)
     with complete_folder(out / name) as folder:
@@ -241,6 +250,7 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         levels=pattern.levels,
         cells="quads" if prepare.cells == "auto" and body.wrapped else prepare.cells,
         neck=NECK_MARGIN * (feature + clearance),
+        depth=config.solid.thickness_range[1],
         clearance=clearance,
         thinnest=2.0 * process.wall_min + clearance,
         resized=pattern.tile_size == "auto",
@@ -257,7 +267,7 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
     return replace(wish, tile_size=finest.tile_size), (finest.limit,)
 
 
-def _curve_wish(config: Config, field: FieldWish | None, *, genus: int, neck: float) -> CurveWish:
+def _curve_wish(config: Config, field: FieldWish | None, *, genus: int, neck: float, depth: float) -> CurveWish:
     pattern = config.pattern
     return CurveWish(
         tree=pattern.tree,
@@ -265,6 +275,7 @@ def _curve_wish(config: Config, field: FieldWish | None, *, genus: int, neck: fl
         root=pattern.root,
         rings=_expected_rings(pattern),
         neck=neck,
+        depth=depth,
         field=field,
         locks=pattern.locks or (),
         handles=checked_handles(handles_of_yellow(pattern.handles, genus), genus),
@@ -327,12 +338,15 @@ def _judged_wire(folder: Path, bent: Wire | None, process: Process) -> tuple[Wir
     return judged_wire(path, diameter=bent.diameter, length=bent.length, process=process)
 
 
-def _thickness(surface: CutSurface, config: Config) -> float | Floats:
+def _thickness(surface: CutSurface, config: Config, *, neck: float) -> float | Floats:
     """Return the thickness of the walls, the same everywhere or one for each point of the surface; mm."""
-    wish = config.solid.thickness
-    if not isinstance(wish, ThicknessConfig):
-        return wish
-    return varying_thickness(surface, thinnest=wish.min, thickest=wish.max, by=wish.by)
+    wish, process = config.solid.thickness, PROCESSES[config.process.name]
+    asked: float | Floats = (
+        varying_thickness(surface, thinnest=wish.min, thickest=wish.max, by=wish.by)
+        if isinstance(wish, ThicknessConfig)
+        else wish
+    )
+    return thickness_for_necks(surface, asked, neck=neck, least=LEAST_WALL * process.wall_min)
 
 
 def _finish_wish(config: Config) -> FinishWish:

@@ -28,6 +28,7 @@ WISH = TileWish(
     levels=None,
     cells="auto",
     neck=0.1,
+    depth=0.0,
     clearance=0.05,
     thinnest=0.1,
     resized=True,
