@@ -256,6 +256,7 @@ def _wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
         resized=pattern.tile_size == "auto",
         rings=_expected_rings(pattern),
         seed=prepare.seed,
+        crease=prepare.crease,
         cage=not isinstance(source, FileConfig),
         round_limit=isinstance(source, SphereConfig),
     )

@@ -13,9 +13,11 @@ from fabricate.prepare.density import mostly_triangles, too_fine
 from fabricate.prepare.remesh import Cells
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.prepare.thin_handles import without_thin_handles
+from fabricate.prepare.tile_quality import tile_quality
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.surface.neck import coarse_necks
 from fabricate.surface.sizing import smooth_scale, typical_side
+from fabricate.surface.tile_places import TilePlaces
 from fabricate.surface.tiling import (
     Tiling,
     input_scale,
@@ -40,6 +42,9 @@ LARGER = (1.15, 1.3)
 FEW_NARROW, FEWER = 0.05, 0.5
 """Larger tiles are tried when no larger a share of the necks is narrow than this, as more come from a body that is too
 thin; and taken when it falls to this share of what it was."""
+
+LONG = 2.0
+"""Triangles are no cells to keep, if tiles may be resized, when 1 tile in 20 is more than so many times as long as wide."""
 
 CellChoice: TypeAlias = Literal["auto", "as-is"] | Cells
 
@@ -73,6 +78,8 @@ class TileWish:
         Where the curve crosses tile sides.
     seed : int
         Of new cells.
+    crease : float or None
+        Edges at which the body turns by so many degrees or more stay sharp.
     cage : bool
         Whether the mesh stands for a smooth surface, as the built-in shapes do.
     round_limit : bool
@@ -90,6 +97,7 @@ class TileWish:
     resized: bool
     rings: tuple[float, ...]
     seed: int
+    crease: float | None
     cage: bool
     round_limit: bool
 
@@ -133,7 +141,7 @@ def chosen_tiling(
         return own_tiling(mesh, size=wish.size, tile_size=None, levels=wish.levels, round_limit=wish.round_limit)
     if cells == "as-is" or (cells == "auto" and not too_fine(mesh, size=wish.size, tile_size=tile_size)):
         own = own_tilings(mesh, size=wish.size, tile_size=tile_size, round_limit=wish.round_limit)
-        suited = _suited(own, wish, grow)
+        suited = _suited(own, mesh, wish, grow)
         if suited is not None or cells == "as-is":
             return suited or own[0]
         return _instead_of(own, mesh, wish, tile_size, grow=grow, progress=progress, store=store)
@@ -161,10 +169,13 @@ def _new(
 ) -> _New:
     """Return new cells, widened, for the surface without its thin handles: larger ones for wide necks, if they may."""
     simplified = without_thin_handles(sized_surface(mesh, wish), thinnest=wish.thinnest)
+    kind, instead = (cells, ()) if not mesh.creases.any() else _along_creases(cells)
 
     def make(side: float) -> Tiling:
         whole = simplified.surface
-        made = new_tiling(whole, cells=cells, tile_size=side, seed=wish.seed, progress=progress, store=store)
+        made = new_tiling(
+            whole, cells=kind, tile_size=side, seed=wish.seed, crease=wish.crease, progress=progress, store=store
+        )
         progress("widening narrow tiles")
         quads = widened(made.quads, whole, rings=wish.rings, neck=wish.neck, depth=wish.depth)
         return replace(made, quads=quads)
@@ -181,7 +192,16 @@ def _new(
             found, narrow = larger, share
             note = (f"tiles are larger, {times * tile_size:.3g} mm, so that necks are {wish.neck:.3g} mm wide",)
     flawed = bool(simplified.notes or found.notes)
-    return _New(replace(found, notes=(*simplified.notes, *note, *found.notes)), narrow, flawed)
+    return _New(replace(found, notes=(*simplified.notes, *instead, *note, *found.notes)), narrow, flawed)
+
+
+def _along_creases(cells: Cells) -> tuple[Cells, tuple[str, ...]]:
+    """Return the kind of new cells for a body with creases, and what has to be said of it."""
+    if cells == "quads":
+        return "triangles", ("new quads do not keep sharp edges: the cells are triangles instead",)
+    if cells == "hexagons":
+        return cells, ("new hexagons do not keep sharp edges: those of prepare.crease are rounded",)
+    return cells, ()
 
 
 def _narrow_share(quads: QuadMesh, wish: TileWish, grow: Callable[[QuadMesh], Duotone]) -> float:
@@ -259,14 +279,22 @@ def sized_surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:
     return input_surface(mesh, size=wish.size)
 
 
-def _suited(own: tuple[Tiling, ...], wish: TileWish, grow: Callable[[QuadMesh], Duotone]) -> Tiling | None:
+def _suited(
+    own: tuple[Tiling, ...], mesh: PolygonMesh, wish: TileWish, grow: Callable[[QuadMesh], Duotone]
+) -> Tiling | None:
     """Return the own tiling to take, if any: of the size asked for it only has to have room for the clearance."""
     if wish.resized:
-        return _first_with_necks(own, wish, grow)
+        even = own if not mostly_triangles(mesh) else tuple(tiling for tiling in own if _is_even(tiling.quads))
+        return _first_with_necks(even, wish, grow)
     if wish.cells == "as-is":
         return own[0]
     without_room = coarse_necks(grow(own[0].quads), rings=wish.rings) <= wish.clearance
     return own[0] if without_room.mean() <= MOST_NARROW else None
+
+
+def _is_even(quads: QuadMesh) -> bool:
+    """Return whether hardly a tile is so long that bands are uneven, as they are on a program's long triangles."""
+    return tile_quality(TilePlaces.of(quads).corners).aspect_p95 <= LONG
 
 
 def _first_with_necks(

@@ -34,6 +34,7 @@ WISH = TileWish(
     resized=True,
     rings=(0.5,),
     seed=0,
+    crease=None,
     cage=True,
     round_limit=False,
 )
