@@ -6,10 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fabricate.arrays import Floats, Indices, frozen
+from fabricate.arrays import Floats, Indices, Mask, frozen
 from fabricate.mesh.crease import creased, fanned_corners
 from fabricate.mesh.polygon_mesh import PolygonMesh
-from fabricate.prepare.triangle_mesh import TriangleMesh
+from fabricate.prepare.triangle_mesh import TriangleMesh, edges
+from fabricate.triangles.adjacency import grown, neighbour_means
+from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.search_tree import SearchTree
 
 NEAR = 0.4
@@ -17,6 +19,12 @@ NEAR = 0.4
 
 BEND = 40.0
 """A point where two sharp edges meet is a corner when they turn by more than so many degrees."""
+
+ROUNDS = 12
+"""How often points are moved where triangles lie over each other."""
+
+OFF = 1e-3
+"""How far the middle of an edge is from where it belongs, at most, as a share of its length."""
 
 CHUNK = 2_000_000
 """Distances that are held at once."""
@@ -83,7 +91,62 @@ def sharpened(cells: TriangleMesh, surface: TriangleMesh, *, angle: float) -> Po
         nearest = int(away.argmin())
         if away[nearest] <= reach[nearest]:
             points[nearest] = corner
-    return fanned_corners(creased(replace(cells, points=points).polygons, angle=angle))
+    put_right = _turned(replace(cells, points=points), surface, sharp)
+    put_right = _unfolded(put_right, surface, sharp, angle=angle)
+    return fanned_corners(creased(put_right.polygons, angle=angle))
+
+
+def _turned(cells: TriangleMesh, surface: TriangleMesh, sharp: SharpEdges) -> TriangleMesh:
+    """Return the cells with edges that cut across a sharp edge turned to lie along it, where both their ends would."""
+    tree = SearchTree.of(surface.points, surface.triangles)
+    for _ in range(ROUNDS):
+        joined = edges(cells)
+        length = joined.lengths(cells.points)
+        across = tree.nearest(cells.points[joined.ends].mean(axis=1)).distance > OFF * length
+        middles = cells.points[joined.opposite].mean(axis=1)
+        along = np.linalg.norm(sharp.nearest(middles) - middles, axis=1) <= OFF * length
+        count = len(cells.points)
+        taken = np.isin(np.sort(joined.opposite, axis=1) @ [count, 1], joined.ends @ [count, 1])
+        wanted = np.flatnonzero(across & along & ~taken)
+        _, first = np.unique(joined.triangles[wanted].ravel(), return_index=True)
+        alone = np.bincount(first // 2, minlength=len(wanted)) == 2
+        wanted = wanted[alone]
+        if not len(wanted):
+            break
+        (a, b), (c, d) = joined.ends[wanted].T, joined.opposite[wanted].T
+        triangles = np.array(cells.triangles)
+        triangles[joined.triangles[wanted, 0]] = np.stack([a, d, c], axis=1)
+        triangles[joined.triangles[wanted, 1]] = np.stack([d, b, c], axis=1)
+        cells = replace(cells, triangles=triangles)
+    return cells
+
+
+def _unfolded(cells: TriangleMesh, surface: TriangleMesh, sharp: SharpEdges, *, angle: float) -> TriangleMesh:
+    """Return the cells with points around triangles that cross or overlap moved to the means of their neighbours.
+
+    Those on a sharp edge go along it, and where edges end, branch or turn they stay.
+    """
+    means, tree = neighbour_means(cells.triangles, count=len(cells.points)), None
+    for _ in range(ROUNDS):
+        folded = np.unique(crossing_triangles(cells.points, cells.triangles))
+        if not len(folded):
+            break
+        tree = tree or SearchTree.of(surface.points, surface.triangles)
+        around: Mask = np.zeros(len(cells.points), dtype=bool)
+        around[cells.triangles[folded]] = True
+        around = grown(around, means, 1)
+        ends = _crease_ends(creased(cells.polygons, angle=angle))
+        fixed = _corners(cells.points, ends)
+        along = np.setdiff1d(np.unique(ends), fixed)
+        around[fixed] = False
+        points = means @ cells.points
+        both = np.concatenate([ends, ends[:, ::-1]])
+        both = both[np.isin(both[:, 0], along)]
+        both = both[np.argsort(both[:, 0], kind="stable")]
+        points = tree.nearest(points).point
+        points[along] = sharp.nearest(cells.points[both[:, 1]].reshape(-1, 2, 3).mean(axis=1))
+        cells = replace(cells, points=np.where(around[:, None], points, cells.points))
+    return cells
 
 
 def _crease_ends(mesh: PolygonMesh) -> Indices:

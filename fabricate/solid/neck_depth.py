@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from fabricate.arrays import Floats
+from fabricate.solid.inset import ways_in
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.neck import tile_necks
 from fabricate.triangles.adjacency import undirected_edges
@@ -42,9 +43,10 @@ def thickness_for_necks(surface: CutSurface, thickness: float | Floats, *, neck:
     asked: Floats = np.broadcast_to(thickness, (len(surface.points),)).astype(np.float64)
     above = np.minimum(tile_necks(surface)[0], tile_necks(replace(surface, points=surface.base))[0])
     goal = np.minimum(neck, above)
+    ways = ways_in(surface, thickness=float(asked.max()))
     share = np.full(len(goal), SHARES[-1])
     for tried in SHARES[::-1]:
-        deep = replace(surface, points=surface.base - (tried * asked)[:, None] * surface.normals)
+        deep = replace(surface, points=surface.base + (tried * asked)[:, None] * ways)
         share = np.where(tile_necks(deep)[0] >= goal, tried, share)
     if (share == 1.0).all():
         return thickness

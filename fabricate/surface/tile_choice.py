@@ -44,7 +44,7 @@ FEW_NARROW, FEWER = 0.05, 0.5
 thin; and taken when it falls to this share of what it was."""
 
 LONG = 2.0
-"""Triangles are no cells to keep, if tiles may be resized, when 1 tile in 20 is more than so many times as long as wide."""
+"""Triangles are no cells to keep, if tiles may be resized, when 1 tile in 20 is longer than so many times its width."""
 
 CellChoice: TypeAlias = Literal["auto", "as-is"] | Cells
 
