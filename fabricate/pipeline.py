@@ -72,7 +72,7 @@ from fabricate.versions import installed_version
 
 LIBRARIES = ("fabricate", "numpy", "scipy", "manifold3d", "libigl", "embreex", "lib3mf", "pymeshlab", "pyquadriflow")
 
-NECK_MARGIN = 1.1
+NECK_MARGIN = 1.08
 """How much wider necks are asked for than the process needs: on the finished surface they may be a little narrower, and
 gaps between walls that lean or twist are up to a fifth wider than the clearance."""
 
