@@ -22,9 +22,10 @@ from fabricate.prepare.store import Store
 from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.polygon_budget import Affordable, affordable
 from fabricate.solid.settling import fitted_cut, has_room
+from fabricate.solid.thick_enough import check_thick
 from fabricate.stopwatch import Stopwatch
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.tile_choice import chosen_tiling
+from fabricate.surface.tile_choice import chosen_tiling, sized_surface
 from fabricate.surface.tiling import Tiling
 from fabricate.wishes import curve_wish, in_place, tile_wish
 
@@ -70,7 +71,9 @@ def divided(body: Prepared, config: Config, field: FieldWish | None, *, watch: S
     solid = config.solid
     watch.begin("quads")
     wish, limit = tile_wish(config, body)
-    curve = curve_wish(config, field, genus=genus(body.mesh), neck=wish.neck)
+    whole = sized_surface(body.mesh, wish)
+    check_thick(whole.points, whole.triangles, clearance=solid.clearance)
+    curve = curve_wish(config, field, genus=genus(body.mesh), neck=wish.neck, depth=wish.depth)
     own = in_place(curve, body, wish)
     tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=own), progress=watch.tell, store=store)
     watch.begin("duotone")

@@ -16,13 +16,18 @@ from fabricate.prepare.prepared import Prepared
 from fabricate.process import PROCESSES
 from fabricate.solid.finish import FinishWish
 from fabricate.solid.joint import Joint
+from fabricate.solid.neck_depth import thickness_for_necks
 from fabricate.solid.thickness import varying_thickness
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.tile_choice import TileWish, tile_scale
 from fabricate.surface.tiling import Tiling
 
-NECK_MARGIN = 1.05
-"""How much wider necks are asked for than the process needs: on the finished surface they may be a little narrower."""
+NECK_MARGIN = 1.08
+"""How much wider necks are asked for than the process needs: on the finished surface they may be a little narrower, and
+gaps between walls that lean or twist are up to a fifth wider than the clearance."""
+
+LEAST_WALL = 1.25
+"""Least thickness that walls keep where they are made shallower for the sake of necks, in the process's thinnest."""
 
 
 def tile_wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]]:
@@ -35,12 +40,14 @@ def tile_wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]
         tile_size=None if pattern.tile_size == "auto" else pattern.tile_size,
         levels=pattern.levels,
         cells="quads" if prepare.cells == "auto" and body.wrapped else prepare.cells,
-        neck=NECK_MARGIN * (feature + clearance),
+        neck=neck_wish(config),
+        depth=config.solid.thickness_range[1],
         clearance=clearance,
         thinnest=2.0 * process.wall_min + clearance,
         resized=pattern.tile_size == "auto",
         rings=expected_rings(pattern),
         seed=prepare.seed,
+        crease=prepare.crease,
         cage=not isinstance(source, FileConfig),
         round_limit=isinstance(source, SphereConfig),
     )
@@ -52,8 +59,13 @@ def tile_wish(config: Config, body: Prepared) -> tuple[TileWish, tuple[str, ...]
     return replace(wish, tile_size=finest.tile_size), (finest.limit,)
 
 
-def curve_wish(config: Config, field: FieldWish | None, *, genus: int, neck: float) -> CurveWish:
-    """Return what is asked of the curve on a body of a genus, with necks of so many mm."""
+def neck_wish(config: Config) -> float:
+    """Return how wide necks should be before clearance is taken off, mm."""
+    return NECK_MARGIN * (PROCESSES[config.process.name].feature_min + config.solid.clearance)
+
+
+def curve_wish(config: Config, field: FieldWish | None, *, genus: int, neck: float, depth: float) -> CurveWish:
+    """Return what is asked of the curve on a body of a genus, with necks of so many mm at that depth, mm."""
     pattern = config.pattern
     return CurveWish(
         tree=pattern.tree,
@@ -61,6 +73,7 @@ def curve_wish(config: Config, field: FieldWish | None, *, genus: int, neck: flo
         root=pattern.root,
         rings=expected_rings(pattern),
         neck=neck,
+        depth=depth,
         field=field,
         locks=pattern.locks or (),
         handles=checked_handles(handles_of_yellow(pattern.handles, genus), genus),
@@ -82,10 +95,13 @@ def expected_rings(pattern: PatternConfig) -> tuple[float, ...]:
 
 def wall_thickness(surface: CutSurface, config: Config) -> float | Floats:
     """Return the thickness of the walls, the same everywhere or one for each point of the surface; mm."""
-    wish = config.solid.thickness
-    if not isinstance(wish, ThicknessConfig):
-        return wish
-    return varying_thickness(surface, thinnest=wish.min, thickest=wish.max, by=wish.by)
+    wish, process = config.solid.thickness, PROCESSES[config.process.name]
+    asked: float | Floats = (
+        varying_thickness(surface, thinnest=wish.min, thickest=wish.max, by=wish.by)
+        if isinstance(wish, ThicknessConfig)
+        else wish
+    )
+    return thickness_for_necks(surface, asked, neck=neck_wish(config), least=LEAST_WALL * process.wall_min)
 
 
 def joint_wish(config: Config) -> Joint:

@@ -54,3 +54,12 @@ def prism(sides: int, *, height: float, creased: bool = True) -> PolygonMesh:
     upper = mesh.corners >= sides
     level = upper == upper[mesh.next_corner]
     return replace(mesh, creases=level & creased)
+
+
+def bracket() -> PolygonMesh:
+    """Return an L, 6 long and 4 wide, in six quads and two faces of six corners: one edge is concave."""
+    outline = np.array([[-3, -3], [3, -3], [3, 1], [1, 1], [1, 3], [-3, 3]], dtype=np.float64)
+    points = np.concatenate([np.insert(outline, 2, z, axis=1) for z in (-2.0, 2.0)])
+    ahead = [(k + 1) % 6 for k in range(6)]
+    walls = [[k, ahead[k], ahead[k] + 6, k + 6] for k in range(6)]
+    return PolygonMesh.from_faces(points, [list(range(6))[::-1], list(range(6, 12)), *walls])

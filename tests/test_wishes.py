@@ -50,7 +50,7 @@ def test_the_ring_of_an_area_share_is_on_its_side_of_the_middle() -> None:
 
 def test_a_curve_without_a_field_is_the_same_in_every_place() -> None:
     asked = config()
-    wish = curve_wish(asked, None, genus=0, neck=1.0)
+    wish = curve_wish(asked, None, genus=0, neck=1.0, depth=2.0)
     assert in_place(wish, BODY, tile_wish(asked, BODY)[0]) is wish
     assert (wish.seed, wish.tree) == (asked.pattern.seed, asked.pattern.tree)
 

@@ -21,6 +21,8 @@ class CurveWish:
         Spanning tree that the yellow region grows along.
     seed : int
         Draws whatever is drawn.
+    depth : float
+        How far under the surface necks have to be as wide, mm.
     root : (x, y, z) or None
         Where breadth-first and depth-first trees grow from, mm; drawn if None.
     rings : tuple of float
@@ -41,6 +43,7 @@ class CurveWish:
     seed: int
     rings: tuple[float, ...]
     neck: float
+    depth: float = 0.0
     root: tuple[float, float, float] | None = None
     field: FieldWish | None = None
     locks: tuple[LockConfig, ...] = ()

@@ -85,7 +85,7 @@ def designed(quads: QuadMesh, wish: CurveWish, *, progress: Callable[[str], None
 def _with_handles(duotone: Duotone, wish: CurveWish, locks: TileLocks | None) -> Duotone:
     if wish.handles == 0:
         return duotone
-    reluctance = neck_reluctance(duotone.quads, rings=wish.rings, neck=wish.neck)
+    reluctance = neck_reluctance(duotone.quads, rings=wish.rings, neck=wish.neck, depth=wish.depth)
     free = None if locks is None else locks.free
     return with_handles(duotone, yellow=wish.handles, seed=wish.seed, reluctance=reluctance, free=free)
 
@@ -123,7 +123,16 @@ def _tree(quads: QuadMesh, wish: CurveWish, locks: TileLocks | None) -> Duotone:
         weights = field_weights(quads, wish.field, seed=wish.seed)
         return weighted_duotone(quads, weights, seed=wish.seed, locks=locks)
     root = None if wish.root is None else _nearest_yellow(quads, wish.root)
-    return wide_duotone(quads, tree=wish.tree, seed=wish.seed, root=root, rings=wish.rings, neck=wish.neck, locks=locks)
+    return wide_duotone(
+        quads,
+        tree=wish.tree,
+        seed=wish.seed,
+        root=root,
+        rings=wish.rings,
+        neck=wish.neck,
+        depth=wish.depth,
+        locks=locks,
+    )
 
 
 def _nearest_yellow(quads: QuadMesh, place: tuple[float, float, float]) -> int:

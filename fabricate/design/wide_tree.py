@@ -24,27 +24,29 @@ def wide_duotone(
     seed: int,
     rings: Sequence[float],
     neck: float,
+    depth: float = 0.0,
     root: int | None = None,
     locks: TileLocks | None = None,
 ) -> Duotone:
     """Join a spanning tree; a random one avoids tiles whose necks would be narrower for it than `neck` mm.
 
-    A tile's neck runs along the diagonal that is joined, and is narrow where the other diagonal is short. Of random
-    trees one is drawn in which as few tiles as possible are joined the narrower way. The other kinds of trees have
-    a shape of their own, or none that is likelier than others, which they keep.
+    That is on the surface or `depth` mm under it. A tile's neck runs along the diagonal that is joined, and is narrow
+    where the other diagonal is short. Of random trees one is drawn in which as few tiles as possible are joined the
+    narrower way. The other kinds of trees have a shape of their own, or none that is likelier than others, which they
+    keep.
 
     Raises
     ------
     PatternError
         If the positions of the arcs are out of range or do not increase, or no tree keeps to the locks.
     """
-    reluctance = neck_reluctance(quads, rings=rings, neck=neck) if tree == "random" else None
+    reluctance = neck_reluctance(quads, rings=rings, neck=neck, depth=depth) if tree == "random" else None
     return grown_duotone(quads, tree=tree, seed=seed, root=root, reluctance=reluctance, locks=locks)
 
 
-def neck_reluctance(quads: QuadMesh, *, rings: Sequence[float], neck: float) -> Indices:
+def neck_reluctance(quads: QuadMesh, *, rings: Sequence[float], neck: float, depth: float = 0.0) -> Indices:
     """Return by how many steps each tile's neck is narrower yellow-joined than blue-joined, (t,) int."""
-    necks = NeckGauge.of(quads, rings=rings).necks(quads.points)
+    necks = NeckGauge.of(quads, rings=rings, depth=depth).necks(quads.points)
     reached = np.floor(STEPS * np.minimum(necks / neck, 1.0)).astype(np.int64)
     steps: Indices = reached[:, 1] - reached[:, 0]
     return steps

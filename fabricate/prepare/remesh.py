@@ -16,6 +16,7 @@ from fabricate.prepare.dual import dual
 from fabricate.prepare.fitted import fitted
 from fabricate.prepare.isotropic import isotropic
 from fabricate.prepare.quadriflow import quadriflow, quadriflow_exists
+from fabricate.prepare.sharp_edges import sharpened
 from fabricate.prepare.sizing_field import SizingField
 from fabricate.prepare.soundness import bridges, crossing_faces, fault, lost, topology_fault
 from fabricate.prepare.tile_sides import tile_sides
@@ -94,6 +95,7 @@ def remeshed(
     cells: Cells,
     tile_size: float,
     seed: int,
+    crease: float | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Remeshed:
     """Return cells on a surface that become tiles of the size asked for in one Catmull-Clark step.
@@ -113,6 +115,8 @@ def remeshed(
         Mean side of a tile, mm.
     seed : int
         Another seed, 0 or more, gives other cells.
+    crease : float, optional
+        Triangles keep edges at which the surface turns by so many degrees or more, and these are creases of theirs.
     progress : callable
         Told what begins.
 
@@ -130,7 +134,10 @@ def remeshed(
     progress("sampling the surface")
     task = _Task(_fine(triangles, tile_size, seed), genus(mesh), tile_size, seed, progress)
     made = _quads(task) if cells == "quads" else Remeshed(_triangular(task, cells), ())
-    return Remeshed(_checked(task, made.mesh), (*made.notes, *_shortcomings(task, made.mesh, mesh)))
+    found = _checked(task, made.mesh)
+    if crease is not None and cells == "triangles":
+        found = sharpened(fanned(found), triangles, angle=crease)
+    return Remeshed(found, (*made.notes, *_shortcomings(task, found, mesh)))
 
 
 def _check_tile_size(mesh: TriangleMesh, tile_size: float) -> None:

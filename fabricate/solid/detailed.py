@@ -48,4 +48,6 @@ def detailed_cut(
     )
     surface = settled(duotone, clearance=clearance, rings=rings, resolution=resolution)
     found = carried(surface.points, surface.normals, surface.triangles, onto.points, onto.triangles)
-    return replace(surface, points=found.points, base=found.base, normals=found.base_normals)
+    # the normals of a surface with creases know of these, and it is smooth between them
+    normals = surface.normals if (surface.mitre > 1.0).any() else found.base_normals
+    return replace(surface, points=found.points, base=found.base, normals=normals)

@@ -20,6 +20,10 @@ COARSE = 6
 """Segments of the arcs on which necks are measured quickly: off by less than 3 % of a tile's side."""
 
 
+DEEPEST = 0.75
+"""The least share of its width on the surface that a neck counts with under it, however sharply the body bends there:
+no tiling makes a neck wide at the depth of its wall where the wall itself has no room."""
+
 CHUNK = 50_000
 """Tiles measured at once: more would need much memory and would not be faster."""
 
@@ -28,15 +32,17 @@ CHUNK = 50_000
 class NeckGauge:
     """Measures the neck of every tile both ways it can be joined, again and again as control points move.
 
-    `rings` counts the arcs round a corner of a tile.
+    `rings` counts the arcs round a corner of a tile, and `depth`, mm, is how far walls go down from the surface: on
+    the outside of a bend they come nearer to each other on their way.
     """
 
     refinement: Subdivision
     arcs: tuple[LimitOperator, ...]
     rings: int
+    depth: float
 
     @classmethod
-    def of(cls, quads: QuadMesh, *, rings: Sequence[float]) -> NeckGauge:
+    def of(cls, quads: QuadMesh, *, rings: Sequence[float], depth: float = 0.0) -> NeckGauge:
         """Prepare for quads with arcs at these positions; only their points may change.
 
         Raises
@@ -51,16 +57,25 @@ class NeckGauge:
             tiles = np.arange(begin, min(begin + CHUNK, len(quads.tiles)))
             rows = np.arange(len(tiles) * len(uv)).reshape(len(tiles), len(uv))
             operators.append(limit.operator([Samples(tiles, uv, rows)], size=rows.size))
-        return cls(catmull_clark(quads), tuple(operators), len(rings))
+        return cls(catmull_clark(quads), tuple(operators), len(rings), depth)
 
     def necks(self, points: Floats) -> Floats:
         """Return the necks of each tile when it is yellow-joined and when it is blue-joined, (t, 2) float, mm.
 
         Before clearance is taken off, for control points, (n, 3) float, mm; where one of the tile's bands is
-        narrower than its neck, the width of that band.
+        narrower than its neck, the width of that band. Under the surface no more than a quarter is lost.
         """
         control = self.refinement.matrix @ points
-        return np.concatenate([_narrowest(operator.positions(control), self.rings) for operator in self.arcs])
+        return np.concatenate([self._along_walls(operator, control) for operator in self.arcs])
+
+    def _along_walls(self, operator: LimitOperator, control: Floats) -> Floats:
+        """Return the necks at the upper or the lower edge of the walls, whichever is narrower."""
+        places = operator.positions(control)
+        above = _narrowest(places, self.rings)
+        if self.depth == 0.0:
+            return above
+        below = _narrowest(places - self.depth * operator.normals(control), self.rings)
+        return np.clip(below, DEEPEST * above, above)
 
 
 def _narrowest(places: Floats, rings: int) -> Floats:
@@ -76,17 +91,18 @@ def _narrowest(places: Floats, rings: int) -> Floats:
     return necks
 
 
-def coarse_necks(duotone: Duotone, *, rings: Sequence[float]) -> Floats:
+def coarse_necks(duotone: Duotone, *, rings: Sequence[float], depth: float = 0.0) -> Floats:
     """Return the width of each tile's neck, (t,) float, mm, before clearance is taken off, measured quickly.
 
-    Where a band is narrower it is that of the band.
+    Where a band is narrower it is that of the band; and where walls come nearer to each other on their way down, it is
+    the width `depth` mm under the surface.
 
     Raises
     ------
     PatternError
         If the positions of the arcs are out of range or do not increase.
     """
-    both = NeckGauge.of(duotone.quads, rings=rings).necks(duotone.quads.points)
+    both = NeckGauge.of(duotone.quads, rings=rings, depth=depth).necks(duotone.quads.points)
     necks: Floats = np.where(duotone.joined, both[:, 0], both[:, 1])
     return necks
 

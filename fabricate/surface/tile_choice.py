@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh
@@ -13,9 +13,11 @@ from fabricate.prepare.density import mostly_triangles, too_fine
 from fabricate.prepare.remesh import Cells
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.prepare.thin_handles import without_thin_handles
+from fabricate.prepare.tile_quality import tile_quality
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.surface.neck import coarse_necks
 from fabricate.surface.sizing import smooth_scale, typical_side
+from fabricate.surface.tile_places import TilePlaces
 from fabricate.surface.tiling import (
     Tiling,
     input_scale,
@@ -33,6 +35,16 @@ HOPELESS = 0.7
 MOST_NARROW = 0.1
 """Own cells are kept with no larger a share of necks that have no room for the clearance; and a cage's with no larger a
 share that are too narrow to print, where new quads do not come out as asked for."""
+
+LARGER = (1.15, 1.3)
+"""How many times as large as asked for new tiles are made in turn until none has a narrow neck, if they may be."""
+
+FEW_NARROW, FEWER = 0.05, 0.5
+"""Larger tiles are tried when no larger a share of the necks is narrow than this, as more come from a body that is too
+thin; and taken when it falls to this share of what it was."""
+
+LONG = 2.0
+"""Triangles are no cells to keep, if tiles may be resized, when 1 tile in 20 is longer than so many times its width."""
 
 CellChoice: TypeAlias = Literal["auto", "as-is"] | Cells
 
@@ -54,6 +66,8 @@ class TileWish:
         give no tiling with wide enough necks.
     neck : float
         Narrowest neck that will do, mm, before clearance is taken off.
+    depth : float
+        How far under the surface necks have to be as wide, mm.
     clearance : float
         Gap between facing walls, mm.
     thinnest : float
@@ -64,6 +78,8 @@ class TileWish:
         Where the curve crosses tile sides.
     seed : int
         Of new cells.
+    crease : float or None
+        Edges at which the body turns by so many degrees or more stay sharp.
     cage : bool
         Whether the mesh stands for a smooth surface, as the built-in shapes do.
     round_limit : bool
@@ -75,11 +91,13 @@ class TileWish:
     levels: int | None
     cells: CellChoice
     neck: float
+    depth: float
     clearance: float
     thinnest: float
     resized: bool
     rings: tuple[float, ...]
     seed: int
+    crease: float | None
     cage: bool
     round_limit: bool
 
@@ -123,12 +141,20 @@ def chosen_tiling(
         return own_tiling(mesh, size=wish.size, tile_size=None, levels=wish.levels, round_limit=wish.round_limit)
     if cells == "as-is" or (cells == "auto" and not too_fine(mesh, size=wish.size, tile_size=tile_size)):
         own = own_tilings(mesh, size=wish.size, tile_size=tile_size, round_limit=wish.round_limit)
-        suited = _suited(own, wish, grow)
+        suited = _suited(own, mesh, wish, grow)
         if suited is not None or cells == "as-is":
             return suited or own[0]
         return _instead_of(own, mesh, wish, tile_size, grow=grow, progress=progress, store=store)
     kind: Cells = "quads" if cells == "auto" else cells
-    return _new(mesh, wish, kind, tile_size, progress=progress, store=store)
+    return _new(mesh, wish, kind, tile_size, grow=grow, progress=progress, store=store).tiling
+
+
+class _New(NamedTuple):
+    """New tiles, the share of their necks that is too narrow, and whether they are otherwise than asked for."""
+
+    tiling: Tiling
+    narrow: float
+    flawed: bool
 
 
 def _new(
@@ -137,16 +163,50 @@ def _new(
     cells: Cells,
     tile_size: float,
     *,
+    grow: Callable[[QuadMesh], Duotone],
     progress: Callable[[str], None],
     store: Store,
-) -> Tiling:
-    """Return new cells, widened, for the surface without its thin handles."""
-    simplified = without_thin_handles(_surface(mesh, wish), thinnest=wish.thinnest)
-    whole = simplified.surface
-    made = new_tiling(whole, cells=cells, tile_size=tile_size, seed=wish.seed, progress=progress, store=store)
-    progress("widening narrow tiles")
-    quads = widened(made.quads, whole, rings=wish.rings, neck=wish.neck)
-    return replace(made, quads=quads, notes=(*simplified.notes, *made.notes))
+) -> _New:
+    """Return new cells, widened, for the surface without its thin handles: larger ones for wide necks, if they may."""
+    simplified = without_thin_handles(sized_surface(mesh, wish), thinnest=wish.thinnest)
+    kind, instead = (cells, ()) if not mesh.creases.any() else _along_creases(cells)
+
+    def make(side: float) -> Tiling:
+        whole = simplified.surface
+        made = new_tiling(
+            whole, cells=kind, tile_size=side, seed=wish.seed, crease=wish.crease, progress=progress, store=store
+        )
+        progress("widening narrow tiles")
+        quads = widened(made.quads, whole, rings=wish.rings, neck=wish.neck, depth=wish.depth)
+        return replace(made, quads=quads)
+
+    found = make(tile_size)
+    note: tuple[str, ...] = ()
+    narrow = _narrow_share(found.quads, wish, grow)
+    for times in LARGER:
+        if found.notes or not wish.resized or not 0.0 < narrow <= FEW_NARROW:
+            break
+        larger = make(times * tile_size)
+        share = _narrow_share(larger.quads, wish, grow)
+        if share <= FEWER * narrow and not larger.notes:
+            found, narrow = larger, share
+            note = (f"tiles are larger, {times * tile_size:.3g} mm, so that necks are {wish.neck:.3g} mm wide",)
+    flawed = bool(simplified.notes or found.notes)
+    return _New(replace(found, notes=(*simplified.notes, *instead, *note, *found.notes)), narrow, flawed)
+
+
+def _along_creases(cells: Cells) -> tuple[Cells, tuple[str, ...]]:
+    """Return the kind of new cells for a body with creases, and what has to be said of it."""
+    if cells == "quads":
+        return "triangles", ("new quads do not keep sharp edges: the cells are triangles instead",)
+    if cells == "hexagons":
+        return cells, ("new hexagons do not keep sharp edges: those of prepare.crease are rounded",)
+    return cells, ()
+
+
+def _narrow_share(quads: QuadMesh, wish: TileWish, grow: Callable[[QuadMesh], Duotone]) -> float:
+    """Return the share of the necks that are narrower than asked for."""
+    return float((coarse_necks(grow(quads), rings=wish.rings, depth=wish.depth) < wish.neck).mean())
 
 
 def _instead_of(
@@ -161,21 +221,21 @@ def _instead_of(
 ) -> Tiling:
     """Return what takes the place of own tilings none of which has wide necks.
 
-    A cage's own cells slid over its surface, if that widens all of them, or nearly all and new quads come out
-    otherwise than asked for; else new quads.
+    A cage's own cells slid over its surface, if that widens all of them, or if new quads come out otherwise than asked
+    for and have more narrow necks; else new quads.
     """
     slid, narrow = (None, 1.0) if mostly_triangles(mesh) else _slid(own, mesh, wish, grow=grow, progress=progress)
     if slid is not None and narrow == 0.0:
         return slid
-    made = _new(mesh, wish, "quads", tile_size, progress=progress, store=store)
-    if slid is not None and made.notes and narrow <= MOST_NARROW:
+    made = _new(mesh, wish, "quads", tile_size, grow=grow, progress=progress, store=store)
+    if slid is not None and made.flawed and narrow <= max(MOST_NARROW, made.narrow):
         return slid
     note = (
         f"no division of the mesh's own cells has necks of {wish.neck:.3g} mm: the cells are new quads"
         if wish.resized
         else f"the clearance of {wish.clearance:g} mm does not fit into the mesh's own cells: they are new quads"
     )
-    return replace(made, notes=(note, *made.notes))
+    return replace(made.tiling, notes=(note, *made.tiling.notes))
 
 
 def _slid(
@@ -190,8 +250,8 @@ def _slid(
     progress("widening narrow tiles")
     surface = smooth_surface(mesh, size=wish.size, round_limit=wish.round_limit)
     hopeful = [tiling for tiling in own if HOPELESS * typical_side(tiling.quads) >= wish.neck]
-    slid = [widened(tiling.quads, surface, rings=wish.rings, neck=wish.neck) for tiling in hopeful]
-    shares = [float((coarse_necks(grow(quads), rings=wish.rings) < wish.neck).mean()) for quads in slid]
+    slid = [widened(tiling.quads, surface, rings=wish.rings, neck=wish.neck, depth=wish.depth) for tiling in hopeful]
+    shares = [_narrow_share(quads, wish, grow) for quads in slid]
     if not shares:
         return None, 1.0
     least = min(shares)
@@ -212,31 +272,39 @@ def _is_cage(mesh: PolygonMesh, wish: TileWish) -> bool:
     return wish.cage or (wish.cells == "auto" and not mostly_triangles(mesh))
 
 
-def _surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:
-    """Return the surface that new cells stand for, mm."""
+def sized_surface(mesh: PolygonMesh, wish: TileWish) -> TriangleMesh:
+    """Return the surface that a mesh stands for, mm: a cage's smooth one, or its own."""
     if _is_cage(mesh, wish):
         return smooth_surface(mesh, size=wish.size, round_limit=wish.round_limit)
     return input_surface(mesh, size=wish.size)
 
 
-def _suited(own: tuple[Tiling, ...], wish: TileWish, grow: Callable[[QuadMesh], Duotone]) -> Tiling | None:
+def _suited(
+    own: tuple[Tiling, ...], mesh: PolygonMesh, wish: TileWish, grow: Callable[[QuadMesh], Duotone]
+) -> Tiling | None:
     """Return the own tiling to take, if any: of the size asked for it only has to have room for the clearance."""
     if wish.resized:
-        return _first_with_necks(own, wish.neck, wish.rings, grow)
+        even = own if not mostly_triangles(mesh) else tuple(tiling for tiling in own if _is_even(tiling.quads))
+        return _first_with_necks(even, wish, grow)
     if wish.cells == "as-is":
         return own[0]
     without_room = coarse_necks(grow(own[0].quads), rings=wish.rings) <= wish.clearance
     return own[0] if without_room.mean() <= MOST_NARROW else None
 
 
+def _is_even(quads: QuadMesh) -> bool:
+    """Return whether hardly a tile is so long that bands are uneven, as they are on a program's long triangles."""
+    return tile_quality(TilePlaces.of(quads).corners).aspect_p95 <= LONG
+
+
 def _first_with_necks(
-    tilings: tuple[Tiling, ...], neck: float, rings: tuple[float, ...], grow: Callable[[QuadMesh], Duotone]
+    tilings: tuple[Tiling, ...], wish: TileWish, grow: Callable[[QuadMesh], Duotone]
 ) -> Tiling | None:
     """Return the first tiling without a neck narrower than asked, mm, if there is one; a coarser one says so."""
     for tiling in tilings:
-        if HOPELESS * typical_side(tiling.quads) < neck:
+        if HOPELESS * typical_side(tiling.quads) < wish.neck:
             continue
-        if coarse_necks(grow(tiling.quads), rings=rings).min() >= neck:
-            note = f"tiles are larger: the cells are uneven, and the narrowest neck has to be {neck:.3g} mm wide"
+        if coarse_necks(grow(tiling.quads), rings=wish.rings, depth=wish.depth).min() >= wish.neck:
+            note = f"tiles are larger: the cells are uneven, and the narrowest neck has to be {wish.neck:.3g} mm wide"
             return tiling if tiling is tilings[0] else replace(tiling, notes=(note, *tiling.notes))
     return None

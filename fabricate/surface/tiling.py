@@ -90,10 +90,13 @@ def new_tiling(
     cells: Cells,
     tile_size: float,
     seed: int,
+    crease: float | None = None,
     progress: Callable[[str], None],
     store: Store = NOTHING_KEPT,
 ) -> Tiling:
     """Return tiles of new cells for a surface in mm; their smooth surface lies close to it.
+
+    Triangles keep edges at which it turns by `crease` degrees or more, if that is not None.
 
     The cells are kept in the store.
 
@@ -105,10 +108,10 @@ def new_tiling(
     whole = surface.polygons
 
     def make() -> Kept:
-        found = remeshed(whole, cells=cells, tile_size=tile_size, seed=seed, progress=progress)
+        found = remeshed(whole, cells=cells, tile_size=tile_size, seed=seed, crease=crease, progress=progress)
         return Kept(found.mesh, found.notes)
 
-    made = store.recalled(whole, f"{cells} {tile_size!r} {seed}", make)
+    made = store.recalled(whole, f"{cells} {tile_size!r} {seed} {crease!r}", make)
     progress("fitting the smooth surface")
     quads = fitted(subdivided(made.mesh, levels=1), surface.points, surface.triangles)
     return Tiling(quads, surface, made.words)

@@ -20,7 +20,7 @@ from fabricate.surface.squaring import squared
 from fabricate.triangles.adjacency import grown, neighbour_means
 from fabricate.triangles.search_tree import Nearest, SearchTree
 
-TYPICAL_SHARE = 0.8
+TYPICAL_SHARE = 0.85
 """No neck is widened beyond this share of the typical one: where that is too narrow, tiles are too small altogether."""
 
 MOST_NARROW = 0.2
@@ -43,7 +43,9 @@ EMPHASIS = 6.0
 """Power of the push by which a pushed tile counts against its neighbours."""
 
 
-def widened(quads: QuadMesh, onto: TriangleMesh, *, rings: Sequence[float], neck: float) -> QuadMesh:
+def widened(
+    quads: QuadMesh, onto: TriangleMesh, *, rings: Sequence[float], neck: float, depth: float = 0.0
+) -> QuadMesh:
     """Return tiles that slid over a surface until each can be joined, one way or the other, `neck` mm wide or more.
 
     Where a body is too thin for that, the tiling with the fewest narrow tiles is returned, of those whose smooth
@@ -60,8 +62,10 @@ def widened(quads: QuadMesh, onto: TriangleMesh, *, rings: Sequence[float], neck
         Where curves cross tile sides.
     neck : float
         Width that necks have to have before clearance is taken off, mm.
+    depth : float
+        How far under the surface they have to have it, too, mm, as far as that can be had.
     """
-    gauge = NeckGauge.of(quads, rings=rings)
+    gauge = NeckGauge.of(quads, rings=rings, depth=depth)
 
     def narrow(tiles: QuadMesh) -> Mask:
         too_narrow: Mask = gauge.necks(tiles.points).max(axis=1) < goal

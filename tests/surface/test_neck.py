@@ -14,10 +14,11 @@ from fabricate.duotone.duotone import Duotone
 from fabricate.duotone.quad_mesh import QuadMesh, two_coloured
 from fabricate.duotone.spanning_tree import random_duotone
 from fabricate.mesh.cube import cube
+from fabricate.mesh.sphere import geodesic_sphere
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.limit import LimitSurface
-from fabricate.surface.neck import NeckGauge, band_widths, coarse_necks, tile_areas, tile_necks
-from fabricate.surface.sizing import tile_sides
+from fabricate.surface.neck import DEEPEST, NeckGauge, band_widths, coarse_necks, tile_areas, tile_necks
+from fabricate.surface.sizing import sized, tile_sides, tiled
 
 SIDE = 4.0
 CUBE = two_coloured(cube(divisions=10).scaled(5 * SIDE))
@@ -133,3 +134,18 @@ def test_areas_of_tiles_are_those_of_flat_squares_and_add_up() -> None:
     assert areas.sum() == pytest.approx(
         np.linalg.norm(np.cross(second - first, third - first), axis=1).sum() / 2, rel=0.01
     )
+
+
+def test_under_a_ball_necks_are_narrower_by_the_share_of_its_radius_that_walls_go_down() -> None:
+    quads = tiled(sized(geodesic_sphere(frequency=2), size=40), tile_size=4)
+    above = NeckGauge.of(quads, rings=(0.5,)).necks(quads.points)
+    below = NeckGauge.of(quads, rings=(0.5,), depth=2.0).necks(quads.points)
+    np.testing.assert_allclose(below, 0.9 * above, rtol=0.03)
+    deepest = NeckGauge.of(quads, rings=(0.5,), depth=15.0).necks(quads.points)
+    np.testing.assert_allclose(deepest, DEEPEST * above)
+
+
+def test_under_a_hollow_necks_are_no_wider_than_above() -> None:
+    quads = tiled(sized(geodesic_sphere(frequency=2), size=40), tile_size=4)
+    above = NeckGauge.of(quads, rings=(0.5,)).necks(quads.points)
+    np.testing.assert_allclose(NeckGauge.of(quads, rings=(0.5,), depth=-2.0).necks(quads.points), above)

@@ -10,6 +10,7 @@ import pytest
 from crowding import crowded_cage
 
 from fabricate.duotone.spanning_tree import grown_duotone
+from fabricate.mesh.crease import creased
 from fabricate.mesh.cube import cube
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import geodesic_sphere
@@ -28,11 +29,13 @@ WISH = TileWish(
     levels=None,
     cells="auto",
     neck=0.1,
+    depth=0.0,
     clearance=0.05,
     thinnest=0.1,
     resized=True,
     rings=(0.5,),
     seed=0,
+    crease=None,
     cage=True,
     round_limit=False,
 )
@@ -164,3 +167,46 @@ def test_a_cage_gets_new_cells_on_its_smooth_surface(
     reach = np.linalg.norm(tiling.surface.points, axis=1).max()
     assert (reach < 0.8 * 50.0 * np.sqrt(3.0)) == smooth
     assert (asked[0][1] > 1000) == smooth
+
+
+@pytest.mark.parametrize(
+    ("cells", "kind"), [("quads", "triangles"), ("triangles", "triangles"), ("hexagons", "hexagons")]
+)
+def test_a_body_with_creases_gets_new_triangles_and_is_told_when_that_is_not_what_was_asked(
+    cells: Cells, kind: Cells, asked: list[tuple[Cells, int]]
+) -> None:
+    body = creased(cube(divisions=2), angle=40.0)
+    tiling = chosen(body, replace(WISH, cells=cells, crease=40.0, cage=False))
+    assert {made for made, _ in asked} == {kind}
+    assert any("sharp edges" in note for note in tiling.notes) == (cells != "triangles")
+
+
+def test_larger_tiles_are_made_while_few_necks_are_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
+    sides: list[float] = []
+    ball = geodesic_sphere(frequency=4).scaled(50.0)
+
+    def remeshed(*_: object, tile_size: float, **__: object) -> Remeshed:
+        sides.append(tile_size)
+        return Remeshed(ball, ())
+
+    shares = iter([0.04, 0.03, 0.01])
+    monkeypatch.setattr("fabricate.surface.tiling.remeshed", remeshed)
+    monkeypatch.setattr("fabricate.surface.tile_choice.widened", lambda quads, *_, **__: quads)
+    monkeypatch.setattr("fabricate.surface.tile_choice._narrow_share", lambda *_: next(shares))
+    wish = replace(WISH, cells="triangles", cage=False)
+    tiling = chosen(ball, wish)
+    assert sides == pytest.approx([5.0, 5.75, 6.5])
+    assert "6.5 mm" in tiling.notes[0]  # 3 % of narrow necks are not enough fewer than 4 %
+    shares = iter([0.2])
+    assert chosen(ball, wish).notes == ()
+    shares = iter([0.04])
+    assert chosen(ball, replace(wish, resized=False)).notes == ()
+
+
+def test_long_triangles_are_no_cells_to_keep(asked: list[tuple[Cells, int]]) -> None:
+    ball = geodesic_sphere(frequency=1)
+    wish = replace(WISH, cage=False, tile_size=20.0)
+    assert chosen(ball, wish).surface is None
+    long = ball.moved(ball.points * [1.0, 1.0, 6.0])
+    assert chosen(long, wish).surface is not None
+    assert asked
