@@ -20,7 +20,7 @@ from fabricate.arrays import Floats, Indices, frozen
 from fabricate.region_names import region_names
 from fabricate.solid.facing import wall_gaps
 from fabricate.solid.floor import floor_drop, lowered
-from fabricate.solid.layers import Layer, flipped, hugging, layer, layer_shares, shares_near, wall
+from fabricate.solid.layers import Layer, flipped, layer, layer_shares, shares_near, wall
 from fabricate.solid.part import Part
 from fabricate.solid.unfolding import unfolded
 from fabricate.surface.cut import CutSurface
@@ -173,7 +173,6 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
             shares_near(above, own, nearness=near) for above, own, near in zip(outer, inner_own, nearness, strict=True)
         )
         layers = [layer(surface, *each) for each in zip(levels, [outer, drawn, *floor_own], strict=True)]
-        layers[1] = hugging(surface, layers[0], layers[1], depth=depth)
         missing = clearance / np.maximum(_wall_gaps(surface, layers, keeper), 1e-9)
         short = (missing > NOTHING_MISSING).any()
         if keeper is not None:

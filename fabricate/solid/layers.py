@@ -9,12 +9,8 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices
 from fabricate.solid.clearance import Shares, along, clearance_shares, ray_sides
-from fabricate.solid.inset import straight_down
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import vertex_normals
-
-NEAR = 0.01
-"""Depth, mm, down to which an inner layer hugs the outer one; twice as deep it does not any more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,23 +55,6 @@ def layer(surface: CutSurface, points: Floats, shares: Sequence[Shares]) -> Laye
         copies[number][half_rays.left] = _closed_up(sides.left, share.left)
         copies[number + 1][half_rays.right] = _closed_up(sides.right, share.right)
     return Layer(copies)
-
-
-def hugging(surface: CutSurface, upper: Layer, lower: Layer, *, depth: Floats) -> Layer:
-    """Return the lower layer with each copy straight under that of the upper one where that is hardly above it.
-
-    Closing up turns triangles, so what is straight under the surface need not be so under its copies. `depth`, (n,)
-    mm, is how far the layers are apart.
-    """
-    near = np.clip(2.0 - depth / NEAR, 0.0, 1.0)[:, None]
-    if not near.any():
-        return lower
-    copies = []
-    for region, (above, below) in enumerate(zip(upper.copies, lower.copies, strict=True)):
-        around = (surface.regions == region) & (near > 0.0)[surface.triangles].any(axis=(1, 2))
-        straight = above + depth[:, None] * straight_down(above, surface.triangles[around])
-        copies.append(below + near * (straight - below))
-    return Layer(tuple(copies))
 
 
 def _closed_up(side: Floats, share: Floats) -> Floats:
