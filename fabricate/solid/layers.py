@@ -52,12 +52,12 @@ def layer(surface: CutSurface, points: Floats, shares: Sequence[Shares]) -> Laye
     copies = tuple(points.copy() for _ in range(len(shares) + 1))
     curves = zip(surface.half_rays, ray_sides(surface, points), shares, strict=True)
     for number, (half_rays, sides, share) in enumerate(curves):
-        copies[number][half_rays.left] = _closed_up(sides.left, share.left)
-        copies[number + 1][half_rays.right] = _closed_up(sides.right, share.right)
+        copies[number][half_rays.left] = closed_up(sides.left, share.left)
+        copies[number + 1][half_rays.right] = closed_up(sides.right, share.right)
     return Layer(copies)
 
 
-def _closed_up(side: Floats, share: Floats) -> Floats:
+def closed_up(side: Floats, share: Floats) -> Floats:
     """Return the half-rays' points, (c, l + 1, 3), moved on so that they begin at `share` of the length."""
     steps = np.linalg.norm(np.diff(side, axis=1), axis=2)
     reached = np.concatenate([np.zeros((len(side), 1)), np.cumsum(steps, axis=1)], axis=1)
