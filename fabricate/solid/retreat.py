@@ -1,14 +1,15 @@
 """The retreat: where nothing else cures a fault, inner points go back until they lie right under the outer ones.
 
-Outer copies stay where they are, and every inner point has a path of its own: straight from where it was proposed to a
-safe place, straight into the body under its own outer copy and so near to it that walls and inner surfaces are as free
-of crossings as the outer surface is, and facing walls as far apart as its copies. So whatever is wrong near a point is
-cured somewhere on the way, and there is an end.
+Every inner point has a path of its own: straight from where it was proposed to a safe place, straight into the body
+under its part's own copy of the outer surface, and so near to it that walls and inner surfaces are as free of crossings
+as that copy is, and facing walls as far apart as copies are. Outer points go along, from where the walls' corrections
+moved them to where copies were seen to be apart (see `solid.spacing`). So whatever is wrong near a point is cured
+somewhere on the way, and there is an end.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -44,8 +45,10 @@ class Retreat:
     Attributes
     ----------
     proposed : Assembly
+    outer : (b, n, 3) float
+        Where outer points end: each copy of the surface's points, mm.
     under : (b, n, 3) float
-        From each outer copy of the surface's points to the safe places under it, mm.
+        From these to the safe places under them, mm.
     inner : (m, 3) int
         The inner surface, outward, by surface points.
     keeper : int or None
@@ -53,24 +56,35 @@ class Retreat:
     """
 
     proposed: Assembly
+    outer: Floats
     under: Floats
     inner: Indices
     keeper: int | None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "under", frozen(self.under, np.float64, (None, self.proposed.surface_points, 3)))
+        for name in ("outer", "under"):
+            shape = (None, self.proposed.surface_points, 3)
+            object.__setattr__(self, name, frozen(getattr(self, name), np.float64, shape))
 
     @classmethod
-    def of(cls, surface: CutSurface, proposed: Assembly, *, thickness: float, keeper: int | None) -> Retreat:
-        """Find the safe places, at a small share of the thickness, mm, under the outer copies."""
-        outer = _outer(_blocks(proposed))
-        anyhow = straight_down(surface.points, surface.triangles)
-        ways = np.repeat(anyhow[None], len(outer), axis=0)
-        for region in range(len(outer) - 1):
+    def of(
+        cls,
+        surface: CutSurface,
+        proposed: Assembly,
+        copies: Sequence[Floats],
+        *,
+        thickness: float,
+        keeper: int | None,
+    ) -> Retreat:
+        """Find the safe places, at a small share of the thickness, mm, under the regions' outer copies, (n, 3) each."""
+        outer = _outer(_blocks(proposed)).copy()
+        ways = np.repeat(straight_down(surface.points, surface.triangles)[None], len(outer), axis=0)
+        for region, copy in enumerate(copies):
             own = surface.triangles[surface.regions == region]
             numbers = np.unique(own)
-            ways[region, numbers] = straight_down(outer[region], own)[numbers]
-        return cls(proposed, SAFE_DEPTH * thickness * ways, surface.triangles, keeper)
+            outer[region] = copy
+            ways[region, numbers] = straight_down(copy, own)[numbers]
+        return cls(proposed, outer, SAFE_DEPTH * thickness * ways, surface.triangles, keeper)
 
     def after(self, steps: Floats) -> Assembly:
         """Return the assembly when each inner point has taken so many steps, (n,) float from 0 to `LAST`.
@@ -78,17 +92,16 @@ class Retreat:
         A floor goes up where everything around is so far back: it keeps its distance from what is over it.
         """
         proposed = _blocks(self.proposed)
-        outer, blocks = _outer(proposed), proposed.copy()
-        _inner(blocks)[:] = _on_paths(outer, self.under, _inner(proposed), steps)
+        blocks = proposed.copy()
+        _outer(blocks)[:] = _on_paths(_outer(proposed), self.outer, np.zeros_like(self.under), steps)
+        _inner(blocks)[:] = _on_paths(_inner(proposed), self.outer, self.under, steps)
         if len(blocks) % 2 and self.keeper is not None:
-            least = _least_around(steps, self.inner)
-            inner = _inner(proposed)[self.keeper]
-            gone = _on_paths(outer[self.keeper], self.under[self.keeper], inner, least) - inner
-            blocks[-1] = proposed[-1] + gone
+            inner, ends = _inner(proposed)[self.keeper], (self.outer[self.keeper], self.under[self.keeper])
+            blocks[-1] = proposed[-1] + _on_paths(inner, *ends, _least_around(steps, self.inner)) - inner
         return replace(self.proposed, points=stored(blocks.reshape(-1, 3)))
 
 
-def _on_paths(outer: Floats, under: Floats, proposed: Floats, steps: Floats) -> Floats:
+def _on_paths(proposed: Floats, outer: Floats, under: Floats, steps: Floats) -> Floats:
     """Return where points are, (..., n, 3) mm, after so many steps, (n,), on their ways from the proposed places."""
     gone = 1.0 - np.interp(steps, np.arange(len(KEPT)), KEPT)[:, None]
     safe = outer + 0.5 ** np.maximum(steps - (len(KEPT) - 1), 0.0)[:, None] * under
@@ -129,7 +142,7 @@ def receded(retreat: Retreat, faults: Callable[[Assembly, Mask], Mask], means: c
     """Return the assembly with inner points gone back as far as it takes until nothing is faulty.
 
     `faults` tells of an assembly which surface points something is wrong at, looking near those that moved, (n,) bool
-    both. What is still wrong at the end of all paths is wrong with the outer surface.
+    both. What is still wrong at the end of all paths is wrong with the surface itself.
     """
     made, steps = retreat.proposed, np.zeros(retreat.proposed.surface_points)
     faulty = faults(made, np.ones(len(steps), dtype=bool))

@@ -14,6 +14,7 @@ from fabricate.solid.dither import dithered
 from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.inset import capped_depth, downward, relaxed, spread, ways_in
 from fabricate.solid.retreat import Retreat, receded
+from fabricate.solid.spacing import outer_copies
 from fabricate.solid.thick_enough import check_thick
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import neighbour_means
@@ -60,7 +61,8 @@ def solids(surface: CutSurface, *, thickness: float | Floats, clearance: float, 
         inner = mended
     made = assembly(surface, inner, clearance=clearance, core=core)
     keeper = core_region(core, regions=len(made.bodies))
-    retreat = Retreat.of(surface, made, thickness=thinnest, keeper=keeper)
+    copies = outer_copies(surface, clearance=clearance) if clearance > 0.0 else (surface.points,)
+    retreat = Retreat.of(surface, made, copies, thickness=thinnest, keeper=keeper)
     return dithered(receded(retreat, partial(_faults, clearance=clearance), means))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ from fabricate.solid.assembly import Assembly, Core, assembly, core_region
 from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.retreat import LAST, RINGS, SAFE_DEPTH, Retreat, receded, stepping
 from fabricate.solid.settling import fitted_cut
+from fabricate.solid.spacing import outer_copies
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
 from fabricate.triangles.adjacency import grown, neighbour_means
@@ -32,7 +35,8 @@ def retreat_of(surface: CutSurface, *, depth: float = THICKNESS, core: Core = "h
     noise = np.random.default_rng(seed).uniform(-0.5, 0.5, surface.points.shape) if seed else 0.0
     inner = surface.points + depth * (noise - surface.normals)
     made = assembly(surface, inner, clearance=CLEARANCE, core=core)
-    return Retreat.of(surface, made, thickness=THICKNESS, keeper=core_region(core, regions=len(made.bodies)))
+    copies, keeper = outer_copies(surface, clearance=CLEARANCE), core_region(core, regions=len(made.bodies))
+    return Retreat.of(surface, made, copies, thickness=THICKNESS, keeper=keeper)
 
 
 def everywhere(made: Assembly) -> Mask:
@@ -84,7 +88,7 @@ def test_everything_is_cured_and_what_is_well_stays(surface: CutSurface, core: C
 def assembly_with(retreat: Retreat, points: np.ndarray) -> Retreat:
     made = retreat.proposed
     moved = Assembly(points, made.bodies, made.gap, made.shell, made.surface_points)
-    return Retreat(moved, retreat.under, retreat.inner, retreat.keeper)
+    return replace(retreat, proposed=moved)
 
 
 def test_what_no_path_cures_is_left_after_a_bounded_number_of_rounds(surface: CutSurface) -> None:
