@@ -17,7 +17,7 @@ from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, Mask, frozen
 from fabricate.solid.assembly import Assembly
-from fabricate.solid.inset import straight_down
+from fabricate.solid.inset import downward, straight_down
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.embedding import stored
 from fabricate.triangles.adjacency import grown
@@ -28,7 +28,7 @@ SAFE_DEPTH = 0.002
 KEPT = (1.0, 0.6, 0.36, 0.2, 0.1, 0.04, 0.0)
 """How much of the way from the safe place to the proposed one is left after so many steps."""
 
-HALVINGS = 5
+HALVINGS = 6
 """How often the safe depth is halved in the steps after these, as slivers need."""
 
 LAST = len(KEPT) - 1 + HALVINGS
@@ -78,12 +78,13 @@ class Retreat:
     ) -> Retreat:
         """Find the safe places, at a small share of the thickness, mm, under the regions' outer copies, (n, 3) each."""
         outer = _outer(_blocks(proposed)).copy()
-        ways = np.repeat(straight_down(surface.points, surface.triangles)[None], len(outer), axis=0)
+        straight = straight_down(surface.points, surface.triangles)
+        ways = np.repeat(straight[None], len(outer), axis=0)
         for region, copy in enumerate(copies):
             own = surface.triangles[surface.regions == region]
             numbers = np.unique(own)
             outer[region] = copy
-            ways[region, numbers] = straight_down(copy, own)[numbers]
+            ways[region, numbers] = downward(copy, own, straight)[numbers]
         return cls(proposed, outer, SAFE_DEPTH * thickness * ways, surface.triangles, keeper)
 
     def after(self, steps: Floats) -> Assembly:

@@ -22,6 +22,8 @@ from fabricate.solid.unfolding import unfolded
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.embedding import Embedding, stored
 from fabricate.surface.stepping import stepped
+from fabricate.triangles.adjacency import grown
+from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.search_tree import SearchTree
 
 ENOUGH, WANTED, AIM = 0.97, 0.985, 1.02
@@ -33,6 +35,9 @@ ROUNDS, PATIENCE = 32, 8
 
 WATCHED = 1.25
 """Only points nearer than so many clearances at first are measured again."""
+
+AROUND = 2
+"""How far around copies that cross themselves the surface opens, in edges."""
 
 GIVES_WAY = 4.0
 """How far along the surface, in clearances, others give way to a push."""
@@ -60,7 +65,7 @@ def spaced(surface: CutSurface, *, clearance: float) -> CutSurface:
     best, fewest, waited = surface, len(surface.points), 0
     for step in range(ROUNDS):
         found = _pushes(surface, watched, clearance=clearance)
-        near = int((found.distance < ENOUGH * clearance).sum())
+        near = int(((found.distance < ENOUGH * clearance) | found.crossing).sum())
         waited = 0 if near < fewest else waited + 1
         if near < fewest:
             best, fewest = surface, near
@@ -76,6 +81,7 @@ def _pushed(surface: CutSurface, found: _Found, embedding: Embedding) -> CutSurf
     """Return the surface after as much of the pushes as keeps it embedded; it opens where they are in vain."""
     old = stored(surface.points)
     folded = found.pushes.any(axis=1) & (found.eased | (embedding.openness(old) < FOLDED))
+    folded |= grown(found.crossing, embedding.means, AROUND)
     opening = OPENED * np.where(folded[:, None], embedding.means @ old - old, 0.0)
     points = stepped(old, old + found.pushes + opening, embedding.means, embedding.faults_since(old))
     return replace(surface, points=points, base=surface.base + (points - old))
@@ -84,12 +90,13 @@ def _pushed(surface: CutSurface, found: _Found, embedding: Embedding) -> CutSurf
 class _Found(NamedTuple):
     """How far each point is to move, (n, 3) mm, how far its copies are from other regions', (n,) mm or infinite.
 
-    And which points are on rays on which a copy would have folded, (n,) bool.
+    And which points are on rays on which a copy would have folded, and where copies cross themselves, (n,) bool.
     """
 
     pushes: Floats
     distance: Floats
     eased: Mask
+    crossing: Mask
 
 
 def outer_copies(surface: CutSurface, *, clearance: float) -> tuple[Floats, ...]:
@@ -119,7 +126,7 @@ def _pushes(surface: CutSurface, watched: Mask, *, clearance: float) -> _Found:
     """Measure copies at the watched points, (n,) bool, and find how the surface gives way where they are too near."""
     copies, eased = _copies(surface, clearance=clearance)
     total, sides = np.zeros_like(surface.points), np.zeros(len(surface.points))
-    distance = np.full(len(surface.points), np.inf)
+    distance, crossing = np.full(len(surface.points), np.inf), np.zeros(len(surface.points), dtype=bool)
     for region, copy in enumerate(copies):
         own = surface.triangles[surface.regions == region]
         others = [surface.triangles[surface.regions == other] for other in range(len(copies)) if other != region]
@@ -133,8 +140,9 @@ def _pushes(surface: CutSurface, watched: Mask, *, clearance: float) -> _Found:
         numbers = np.unique(own)
         total[numbers] += _given_way(surface.points, own, repelled, reach=GIVES_WAY * clearance)[numbers]
         distance = np.minimum(distance, away)
+        crossing[own[crossing_triangles(stored(copy), own)].ravel()] = True
         sides[numbers] += 1.0
-    return _Found(total / np.maximum(sides, 1.0)[:, None], distance, eased)
+    return _Found(total / np.maximum(sides, 1.0)[:, None], distance, eased, crossing)
 
 
 def _repelled(points: Floats, triangles: Indices, other: SearchTree, *, clearance: float) -> tuple[Floats, Floats]:
