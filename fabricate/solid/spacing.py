@@ -162,6 +162,7 @@ def _repelled(points: Floats, triangles: Indices, other: SearchTree, *, clearanc
         for end in ends.T:
             larger = np.linalg.norm(push, axis=1) > np.linalg.norm(pushes[end], axis=1)
             pushes[end[larger]] = push[larger]
+            np.minimum.at(distance, end, between.distance)
     return pushes, distance
 
 
