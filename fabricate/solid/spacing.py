@@ -20,7 +20,7 @@ from fabricate.arrays import Floats, Indices, Mask
 from fabricate.solid.layers import layer, layer_shares
 from fabricate.solid.unfolding import unfolded
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.embedding import Embedding, stored
+from fabricate.surface.embedding import OPEN, Embedding, Faulty, stored
 from fabricate.surface.stepping import stepped
 from fabricate.triangles.adjacency import grown
 from fabricate.triangles.crossing import crossing_triangles
@@ -35,6 +35,9 @@ ROUNDS, PATIENCE = 32, 8
 
 WATCHED = 1.25
 """Only points nearer than so many clearances at first are measured again."""
+
+SHARPER = 0.2
+"""By which share of itself the cosine at a sharp fold may become smaller in a round."""
 
 AROUND = 2
 """How far around copies that cross themselves the surface opens, in edges."""
@@ -83,8 +86,20 @@ def _pushed(surface: CutSurface, found: _Found, embedding: Embedding) -> CutSurf
     folded = found.pushes.any(axis=1) & (found.eased | (embedding.openness(old) < FOLDED))
     folded |= grown(found.crossing, embedding.means, AROUND)
     opening = OPENED * np.where(folded[:, None], embedding.means @ old - old, 0.0)
-    points = stepped(old, old + found.pushes + opening, embedding.means, embedding.faults_since(old))
+    points = stepped(old, old + found.pushes + opening, embedding.means, _faults(embedding, old))
     return replace(surface, points=points, base=surface.base + (points - old))
+
+
+def _faults(embedding: Embedding, old: Floats) -> Faulty:
+    """Return the test for crossings, and for folds much sharper than those of the points `old`, (n, 3)."""
+    least = np.minimum(embedding.openness(old), OPEN)
+    least = least - SHARPER * np.abs(least)
+
+    def faulty(points: Floats, moved: Mask) -> Mask:
+        wrong: Mask = embedding.crossed(points, moved) | (embedding.openness(points) < least)
+        return wrong
+
+    return faulty
 
 
 class _Found(NamedTuple):
