@@ -20,7 +20,7 @@ from fabricate.arrays import Floats, Indices, Mask
 from fabricate.solid.layers import layer, layer_shares
 from fabricate.solid.unfolding import unfolded
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.embedding import OPEN, Embedding, Faulty, stored
+from fabricate.surface.embedding import Embedding, stored
 from fabricate.surface.stepping import stepped
 from fabricate.triangles.adjacency import grown
 from fabricate.triangles.crossing import crossing_triangles
@@ -31,13 +31,10 @@ ENOUGH, WANTED, AIM = 0.97, 0.985, 1.02
 near; and which they are pushed to."""
 
 ROUNDS, PATIENCE = 32, 8
-"""How often copies are measured and pushed, and how often without fewer that are too near."""
+"""How often copies are measured and pushed, and how often without less missing."""
 
 WATCHED = 1.25
 """Only points nearer than so many clearances at first are measured again."""
-
-SHARPER = 0.2
-"""By which share of itself the cosine at a sharp fold may become smaller in a round."""
 
 AROUND = 2
 """How far around copies that cross themselves the surface opens, in edges."""
@@ -65,14 +62,14 @@ def spaced(surface: CutSurface, *, clearance: float) -> CutSurface:
         return surface
     embedding = Embedding.of(surface.triangles, count=len(surface.points))
     watched: Mask = np.ones(len(surface.points), dtype=bool)
-    best, fewest, waited = surface, len(surface.points), 0
+    best, least, waited = surface, np.inf, 0
     for step in range(ROUNDS):
         found = _pushes(surface, watched, clearance=clearance)
-        near = int(((found.distance < ENOUGH * clearance) | found.crossing).sum())
-        waited = 0 if near < fewest else waited + 1
-        if near < fewest:
-            best, fewest = surface, near
-        if not near or waited == PATIENCE:
+        missing = np.maximum(ENOUGH - found.distance / clearance, 0.0).sum() + found.crossing.sum()
+        waited = 0 if missing < least else waited + 1
+        if missing < least:
+            best, least = surface, missing
+        if missing == 0.0 or waited == PATIENCE:
             break
         if step == 0:
             watched = found.distance < WATCHED * clearance
@@ -86,20 +83,8 @@ def _pushed(surface: CutSurface, found: _Found, embedding: Embedding) -> CutSurf
     folded = found.pushes.any(axis=1) & (found.eased | (embedding.openness(old) < FOLDED))
     folded |= grown(found.crossing, embedding.means, AROUND)
     opening = OPENED * np.where(folded[:, None], embedding.means @ old - old, 0.0)
-    points = stepped(old, old + found.pushes + opening, embedding.means, _faults(embedding, old))
+    points = stepped(old, old + found.pushes + opening, embedding.means, embedding.faults_since(old))
     return replace(surface, points=points, base=surface.base + (points - old))
-
-
-def _faults(embedding: Embedding, old: Floats) -> Faulty:
-    """Return the test for crossings, and for folds much sharper than those of the points `old`, (n, 3)."""
-    least = np.minimum(embedding.openness(old), OPEN)
-    least = least - SHARPER * np.abs(least)
-
-    def faulty(points: Floats, moved: Mask) -> Mask:
-        wrong: Mask = embedding.crossed(points, moved) | (embedding.openness(points) < least)
-        return wrong
-
-    return faulty
 
 
 class _Found(NamedTuple):

