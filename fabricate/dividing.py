@@ -22,6 +22,7 @@ from fabricate.prepare.store import Store
 from fabricate.solid.detailed import detailed_cut
 from fabricate.solid.polygon_budget import Affordable, affordable
 from fabricate.solid.settling import fitted_cut, has_room
+from fabricate.solid.spacing import spaced
 from fabricate.solid.thick_enough import check_thick
 from fabricate.stopwatch import Stopwatch
 from fabricate.surface.cut import CutSurface
@@ -91,10 +92,11 @@ def divided(body: Prepared, config: Config, field: FieldWish | None, *, watch: S
 def _surface(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float) -> CutSurface:
     """Return the cut surface, by a tolerance, mm, with the rings asked for or the one that the area share needs."""
     make, share = partial(_cut, duotone, tiling, config, tolerance), config.pattern.area_share
+    clearance = config.solid.clearance
     if share is None:
-        return make(config.pattern.positions)
-    room = partial(has_room, clearance=config.solid.clearance)
-    return shared_cut(duotone, share=share, make=make, fits=room)
+        return spaced(make(config.pattern.positions), clearance=clearance)
+    shared = shared_cut(duotone, share=share, make=make, fits=partial(has_room, clearance=clearance))
+    return spaced(shared, clearance=clearance)
 
 
 def _cut(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float, rings: tuple[float, ...]) -> CutSurface:

@@ -24,7 +24,6 @@ from fabricate.solid.joint import STRAIGHT, Joint, asides, gently, ridges
 from fabricate.solid.layers import (
     Layer,
     flipped,
-    hugging,
     layer,
     layer_shares,
     moved_aside,
@@ -252,7 +251,6 @@ def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int
             eased = [share * full for share, full in zip(size, aside, strict=True)]
             under = [shares_aside(surface, *each, asides=eased) for each in zip(levels[1:], under, strict=True)]
         outer, lower, *floor = [layer(surface, *each) for each in zip(levels, [outer_own, *under], strict=True)]
-        lower = hugging(surface, outer, lower, depth=depth)
         rings = ridges(surface, outer, lower, joint, size=size, clearance=clearance)
         layers = _Layers(outer, lower, rings, floor[0] if floor else None)
         missing = clearance / np.maximum(_wall_gaps(surface, layers, keeper), 1e-9)

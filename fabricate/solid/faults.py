@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fabricate.arrays import Floats, Indices, Mask
+from fabricate.arrays import Indices, Mask
 from fabricate.solid.assembly import Assembly
 from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.edge_pieces import EdgePieces, near_edges
@@ -17,35 +17,26 @@ GAP_SHARE = 0.965
 PROMISED_SHARE = 0.955
 """Below this share it is certain to be found; the promise to the user is 0.95."""
 
-AT_RIM = 1e-3
-"""Nearer than this to the outer layer a place on a wall is on it, mm."""
-
 
 def crossing_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
-    """Return the surface points, (n,) bool, under triangles that cross; only near `moved` points, (n,) bool.
-
-    Crossings among triangles of the outer surface alone are left out: no inner surface cures those.
-    """
+    """Return the surface points, (n,) bool, under triangles that cross; only near `moved` points, (n,) bool."""
     triangles: Indices = np.concatenate(assembly.bodies)
     if clearance == 0.0:  # the parts share their walls: look at each of those once
         triangles = triangles[np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]]
     triangles = triangles[_around(assembly, triangles, moved, reach=0.0)]
     pairs = crossing_triangles(assembly.points, triangles)
-    inside = ~np.all(_outer(assembly, clearance)[triangles], axis=1)
-    return _surface_points(assembly, triangles[pairs[inside[pairs].any(axis=1)]].ravel())
+    return _surface_points(assembly, triangles[pairs].ravel())
 
 
 def near_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
     """Return the surface points, (n,) bool, under which the parts are nearer than the clearance allows.
 
-    Only near `moved` points, (n,) bool. Each part is measured at its points and along its edges. Places where the
-    outer surfaces themselves are that near are left out: no inner surface cures those.
+    Only near `moved` points, (n,) bool. Each part is measured at its points and along its edges.
     """
     triangles = np.concatenate(assembly.bodies)
     around = _around(assembly, triangles, moved, reach=clearance)
     body = np.repeat(np.arange(len(assembly.bodies)), [len(each) for each in assembly.bodies])[around]
     least = GAP_SHARE * clearance
-    outer = _outer(assembly, clearance)
     near = [np.zeros(0, dtype=np.int64)]
     for number in range(len(assembly.bodies)):
         own, other = triangles[around[body == number]], triangles[around[body != number]]
@@ -54,30 +45,14 @@ def near_points(assembly: Assembly, *, clearance: float, moved: Mask) -> Mask:
         tree = SearchTree.of(assembly.points, other)
         numbers = np.unique(own)
         distance = np.full(len(assembly.points), np.inf)
-        nearest = tree.nearest(assembly.points[numbers])
-        distance[numbers] = nearest.distance
-        curable = ~outer[numbers] | _below(assembly.points, other[nearest.triangle], nearest.point, outer)
-        near.append(numbers[curable & (nearest.distance < least)])
+        distance[numbers] = tree.nearest(assembly.points[numbers]).distance
+        near.append(numbers[distance[numbers] < least])
         edges = own[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
         edges = edges[edges[:, 0] < edges[:, 1]]
         pieces = EdgePieces.whole(assembly.points, edges, distance)
         found = near_edges(pieces, tree, reach=least, sure=PROMISED_SHARE * clearance)
-        ends = edges[found].ravel()
-        near.append(ends[~outer[ends]])
+        near.append(edges[found].ravel())
     return _surface_points(assembly, np.concatenate(near))
-
-
-def _below(points: Floats, triangles: Indices, places: Floats, outer: Mask) -> Mask:
-    """Return which places, each on its triangle, are not on the outer layer, (q,) bool."""
-    on_outer = outer[triangles]
-    rows = np.arange(len(triangles))
-    first = points[triangles[rows, on_outer.argmax(axis=1)]]
-    along = points[triangles[rows, 2 - on_outer[:, ::-1].argmax(axis=1)]] - first
-    length = np.maximum(np.einsum("ij,ij->i", along, along), np.finfo(float).tiny)
-    share = np.clip(np.einsum("ij,ij->i", places - first, along) / length, 0.0, 1.0)
-    away = np.linalg.norm(places - first - share[:, None] * along, axis=1)
-    below: Mask = ~on_outer.all(axis=1) & (~on_outer.any(axis=1) | (away > AT_RIM))
-    return below
 
 
 def _around(assembly: Assembly, triangles: Indices, moved: Mask, *, reach: float) -> Indices:
@@ -92,11 +67,3 @@ def _surface_points(assembly: Assembly, numbers: Indices) -> Mask:
     points: Mask = np.zeros(assembly.surface_points, dtype=bool)
     points[numbers % assembly.surface_points] = True
     return points
-
-
-def _outer(assembly: Assembly, clearance: float) -> Mask:
-    """Return which numbers lie on the outer layer: block 0, and with a clearance every second one up to blue's."""
-    block = np.arange(len(assembly.points)) // assembly.surface_points
-    copies = len(assembly.bodies) if clearance > 0.0 else 1
-    outer: Mask = (block % 2 == 0) & (block < 2 * copies)
-    return outer

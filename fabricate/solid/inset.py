@@ -3,8 +3,8 @@
 Straight down by the thickness folds wherever the surface bends more sharply than that, or the body is thinner than two
 walls. So the ways in are evened out over the surface, and the depth is capped where the body is thin. Where an exact
 test finds a fault all the same, the inner points around it slide sideways to where there is room and are relaxed, that
-is moved towards the mean of their neighbours, which opens a fold without thinning the wall. Only what this does not
-cure is moved back towards the surface.
+is moved towards the mean of their neighbours, which opens a fold without thinning the wall. What this does not cure
+has to retreat (see `solid.retreat`).
 """
 
 from __future__ import annotations
@@ -43,16 +43,6 @@ LEAST_STEEP = 0.3
 
 TILES, SLIDES = 1, 36
 """How far around a fault points slide, in tiles, and how often in a round."""
-
-RETREAT, HURRY = 0.4, 3
-"""Share of the way back to a safe depth that points near a stubborn fault move in a round; it grows from when they have
-had to more often than so many times."""
-
-SAFE_DEPTH = 0.002
-"""The safe depth, as a share of the thickness: straight in, and so little that a surface that is embedded stays so."""
-
-STUBBORN, SHALLOWEST = 8, 1.0 / 32.0
-"""How often points retreat before the safe depth is halved each time, as slivers need, and its least share."""
 
 
 def ways_in(surface: CutSurface, *, thickness: float) -> Floats:
@@ -154,32 +144,3 @@ def relaxed(surface: CutSurface, inner: Floats, faulty: Mask, means: csr_array) 
         kept = np.einsum("ij,ij->i", way, surface.along)[:, None] * surface.along
         inner = inner + np.where(around, np.where(sharp, kept, way), 0.0)
     return inner
-
-
-def retreating(surface: CutSurface, faulty: Mask, means: csr_array) -> Mask:
-    """Return the points, (n,) bool, that retreat for the faulty ones.
-
-    A ray with a faulty point moves as a whole, because the clearance is made along it.
-    """
-    around = faulty.copy()
-    around[surface.rays[faulty[surface.rays].any(axis=2)]] = True
-    return grown(around, means, 1)
-
-
-def safe_share(times: Indices) -> Floats:
-    """Return the share of the safe depth that points go back to which had to retreat so many times, (n,) float."""
-    share: Floats = np.maximum(0.5 ** np.maximum(times - STUBBORN, 0), SHALLOWEST)
-    return share
-
-
-def retreated(inner: Floats, around: Mask, means: csr_array, *, safe: Floats, times: Indices) -> Floats:
-    """Return the inner points moved part of the way to `safe`, (n, 3), which is more the oftener they had to.
-
-    Those `around`, (n,) bool, do, and some near them by less; `times`, (n,) int, counts how often they did, with this
-    one.
-    """
-    weight = around.astype(np.float64)
-    for _ in range(RINGS):
-        weight = np.maximum(weight, means @ weight)
-    share = np.minimum(RETREAT * np.maximum(times / HURRY, 1.0), 1.0)
-    return inner + (share * weight)[:, None] * (safe - inner)

@@ -9,12 +9,8 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices
 from fabricate.solid.clearance import Shares, along, clearance_shares, half_length, ray_sides, shifted
-from fabricate.solid.inset import straight_down
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import vertex_normals
-
-NEAR = 0.01
-"""Depth, mm, down to which an inner layer hugs the outer one; twice as deep it does not any more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,26 +61,9 @@ def layer(surface: CutSurface, points: Floats, shares: Sequence[Shares]) -> Laye
     copies = tuple(points.copy() for _ in range(len(shares) + 1))
     curves = zip(surface.half_rays, ray_sides(surface, points), shares, strict=True)
     for number, (half_rays, sides, share) in enumerate(curves):
-        copies[number][half_rays.left] = _closed_up(sides.left, sides.right, share.left)
-        copies[number + 1][half_rays.right] = _closed_up(sides.right, sides.left, share.right)
+        copies[number][half_rays.left] = closed_up(sides.left, sides.right, share.left)
+        copies[number + 1][half_rays.right] = closed_up(sides.right, sides.left, share.right)
     return Layer(copies)
-
-
-def hugging(surface: CutSurface, upper: Layer, lower: Layer, *, depth: Floats) -> Layer:
-    """Return the lower layer with each copy straight under that of the upper one where that is hardly above it.
-
-    Closing up turns triangles, so what is straight under the surface need not be so under its copies. `depth`, (n,)
-    mm, is how far the layers are apart.
-    """
-    near = np.clip(2.0 - depth / NEAR, 0.0, 1.0)[:, None]
-    if not near.any():
-        return lower
-    copies = []
-    for region, (above, below) in enumerate(zip(upper.copies, lower.copies, strict=True)):
-        around = (surface.regions == region) & (near > 0.0)[surface.triangles].any(axis=(1, 2))
-        straight = above + depth[:, None] * straight_down(above, surface.triangles[around])
-        copies.append(below + near * (straight - below))
-    return Layer(tuple(copies))
 
 
 def moved_aside(surface: CutSurface, points: Floats, asides: Sequence[Floats]) -> Floats:
@@ -93,12 +72,12 @@ def moved_aside(surface: CutSurface, points: Floats, asides: Sequence[Floats]) -
     nowhere = [Shares(np.zeros_like(aside), np.zeros_like(aside)) for aside in asides]
     shares = shares_aside(surface, points, nowhere, asides=asides)
     for half_rays, sides, share in zip(surface.half_rays, ray_sides(surface, points), shares, strict=True):
-        moved[half_rays.left] = _closed_up(sides.left, sides.right, share.left)
-        moved[half_rays.right] = _closed_up(sides.right, sides.left, share.right)
+        moved[half_rays.left] = closed_up(sides.left, sides.right, share.left)
+        moved[half_rays.right] = closed_up(sides.right, sides.left, share.right)
     return moved
 
 
-def _closed_up(side: Floats, other: Floats, share: Floats) -> Floats:
+def closed_up(side: Floats, other: Floats, share: Floats) -> Floats:
     """Return the half-rays' points, (c, l + 1, 3), moved on so that they begin at `share` of the length.
 
     Of a negative share it is the length of the half-ray on the other side, which is entered from the curve.

@@ -2,38 +2,27 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from fabricate.arrays import Floats, Mask
 from fabricate.errors import SolidError
-from fabricate.solid.assembly import Assembly, Core, assembly
+from fabricate.solid.assembly import Assembly, Core, assembly, core_region
 from fabricate.solid.clearance import check_necks
 from fabricate.solid.dither import dithered
 from fabricate.solid.faults import crossing_points, near_points
-from fabricate.solid.inset import (
-    SAFE_DEPTH,
-    capped_depth,
-    downward,
-    relaxed,
-    retreated,
-    retreating,
-    safe_share,
-    spread,
-    straight_down,
-    ways_in,
-)
+from fabricate.solid.inset import capped_depth, downward, relaxed, spread, ways_in
 from fabricate.solid.joint import STRAIGHT, Joint, fitted_joint
+from fabricate.solid.retreat import Retreat, receded
+from fabricate.solid.spacing import outer_copies
 from fabricate.solid.thick_enough import check_thick
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 
-RETREAT_FROM, ALL_ROUNDS = 4, 80
-"""Round from which stubborn places retreat, and rounds in all; the checks report what is left."""
-
-PATIENCE, UNHEEDED = 20, 3
-"""Rounds of retreat in which nothing gets better, before the rest is left as it is; and before places that are too near
-are seen to although others still cross."""
+RELAXINGS = 4
+"""How often faults are relaxed before what is left retreats."""
 
 CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
@@ -66,50 +55,30 @@ def solids(
     down = downward(surface.points, surface.triangles, ways_in(surface, thickness=thickest))
     depth = capped_depth(surface, down, thickness=thickness, between=between)
     inner = surface.base + depth[:, None] * down
-    straight = SAFE_DEPTH * thinnest * straight_down(surface.points, surface.triangles)
     fitted = fitted_joint(surface, inner, joint, thickness=thinnest, clearance=clearance)
     means = neighbour_means(surface.triangles, count=len(surface.points))
     moved: Mask = np.ones(len(inner), dtype=bool)
-    times = np.zeros(len(inner), dtype=np.int64)
-    fewest, waited = np.full(2, len(inner)), 0
-    for step in range(ALL_ROUNDS):
+    for _ in range(RELAXINGS):
         made = assembly(surface, inner, clearance=clearance, core=core, joint=fitted)
-        stuck = waited >= UNHEEDED
-        all_kinds = step < RETREAT_FROM or stuck
-        crossing, near = _faults(made, clearance, moved | stuck, all_kinds=all_kinds)
-        faulty = crossing | near
+        faulty = _faults(made, moved, clearance=clearance)
+        if not faulty.any() and not moved.all():
+            faulty = _faults(made, np.ones_like(moved), clearance=clearance)
         if not faulty.any():
-            break
-        if step >= RETREAT_FROM:
-            left = np.array([crossing.sum(), near.sum() if all_kinds or not crossing.any() else len(inner)])
-            fewest, waited = np.minimum(fewest, left), waited + 1 if (left >= fewest).all() else 0
-            if waited == PATIENCE:
-                break
-        if step < RETREAT_FROM:
-            mended = relaxed(surface, spread(surface, inner, faulty, means), faulty, means)
-        else:
-            around = retreating(surface, faulty, means)
-            times += around
-            safe = surface.points + safe_share(times)[:, None] * straight
-            mended = retreated(inner, around, means, safe=safe, times=times)
+            return dithered(made)
+        mended = relaxed(surface, spread(surface, inner, faulty, means), faulty, means)
         moved = (mended != inner).any(axis=1)
         inner = mended
-    return dithered(made)
+    made = assembly(surface, inner, clearance=clearance, core=core, joint=fitted)
+    keeper = core_region(core, regions=len(made.bodies))
+    copies = outer_copies(surface, clearance=clearance) if clearance > 0.0 else (surface.points,)
+    retreat = Retreat.of(surface, made, copies, thickness=thinnest, keeper=keeper)
+    return dithered(receded(retreat, partial(_faults, clearance=clearance), means))
 
 
-def _faults(made: Assembly, clearance: float, moved: Mask, *, all_kinds: bool) -> tuple[Mask, Mask]:
-    """Return the surface points where parts cross, and near places if asked for or once nothing crosses.
-
-    Both are looked for around the points that moved; nothing counts as found to be right before everything
-    was looked at.
-    """
-    crossing = crossing_points(made, clearance=clearance, moved=moved)
-    near: Mask = np.zeros_like(crossing)
-    if clearance > 0.0 and (all_kinds or not crossing.any()):
-        near = near_points(made, clearance=clearance, moved=moved)
-    if not (crossing | near).any() and not moved.all():
-        return _faults(made, clearance, np.ones_like(moved), all_kinds=True)
-    return crossing, near
+def _faults(made: Assembly, moved: Mask, *, clearance: float) -> Mask:
+    """Return the surface points where parts cross or are too near, looked for around the points that moved."""
+    faulty = crossing_points(made, clearance=clearance, moved=moved)
+    return faulty | near_points(made, clearance=clearance, moved=moved) if clearance > 0.0 else faulty
 
 
 def _check_sizes(surface: CutSurface, thickness: float, clearance: float) -> None:

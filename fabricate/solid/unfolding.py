@@ -8,7 +8,7 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices
 from fabricate.solid.clearance import FARTHEST, Shares, half_length, ray_sides
-from fabricate.solid.layers import layer
+from fabricate.solid.layers import closed_up, layer
 from fabricate.surface.cut import CutSurface
 from fabricate.triangles.normals import area_vectors
 
@@ -23,31 +23,46 @@ def unfolded(surface: CutSurface, points: Floats, shares: Sequence[Shares]) -> t
     `points`, (n, 3) mm, has no such place, so moving less cures it.
     """
     facets, sides = area_vectors(points, surface.triangles), ray_sides(surface, points)
+    lengths = [[half_length(side) for side in each] for each in sides]
     eased = tuple(Shares(left.copy(), right.copy()) for left, right in shares)
+    copies = layer(surface, points, eased).copies
+    regions = [np.flatnonzero(surface.regions == region) for region in range(len(copies))]
+    suspects = regions
     for _ in range(ROUNDS):
-        turned = _turned(surface, layer(surface, points, eased).copies, facets)
+        turned = [
+            _turned(copy, surface.triangles[own], facets[own]) for copy, own in zip(copies, suspects, strict=True)
+        ]
         if not any(map(len, turned)):
             break
+        moved = [np.zeros(len(points), dtype=bool) for _ in copies]
         for number, half_rays in enumerate(surface.half_rays):
-            lengths = [half_length(side) for side in sides[number]]
-            for own, rays in enumerate(half_rays):
-                where = _rays_of(rays, turned[number + own], count=len(points))
-                mine, other = eased[number][own], eased[number][1 - own]
-                less = (1.0 - EASE) * mine[where]
-                mine[where] -= less
-                other[where] = np.minimum(other[where] + less * lengths[own][where] / lengths[1 - own][where], FARTHEST)
+            rays = []
+            for own in (0, 1):
+                rays.append(_rays_of(half_rays[own], turned[number + own], count=len(points)))
+                _ease(eased[number], lengths[number], rays[own], own=own)
+            again = np.unique(np.concatenate(rays))
+            for own in (0, 1):
+                numbers, (mine, other) = half_rays[own][again], (sides[number][side][again] for side in (own, 1 - own))
+                copies[number + own][numbers] = closed_up(mine, other, eased[number][own][again])
+                moved[number + own][numbers] = True
+        touched = [mine[surface.triangles[own]].any(axis=1) for mine, own in zip(moved, regions, strict=True)]
+        suspects = [own[near] for near, own in zip(touched, regions, strict=True)]
     return eased
 
 
-def _turned(surface: CutSurface, copies: Sequence[Floats], facets: Floats) -> list[Indices]:
-    """Return for each region the corners, (k,) int, of its triangles that face the other way in its own copy."""
-    found = []
-    for region, copy in enumerate(copies):
-        own = surface.regions == region
-        triangles = surface.triangles[own]
-        over = np.einsum("ij,ij->i", area_vectors(copy, triangles), facets[own]) < 0.0
-        found.append(triangles[over].ravel())
-    return found
+def _ease(shares: Shares, lengths: Sequence[Floats], rays: Indices, *, own: int) -> None:
+    """Let the copy on one side move less on some rays, and the other one on instead."""
+    mine, other = shares[own], shares[1 - own]
+    less = (1.0 - EASE) * mine[rays]
+    mine[rays] -= less
+    other[rays] = np.minimum(other[rays] + less * lengths[own][rays] / lengths[1 - own][rays], FARTHEST)
+
+
+def _turned(copy: Floats, triangles: Indices, facets: Floats) -> Indices:
+    """Return the corners, (k,) int, of triangles that face the other way in a region's own copy."""
+    over = np.einsum("ij,ij->i", area_vectors(copy, triangles), facets) < 0.0
+    corners: Indices = triangles[over].ravel()
+    return corners
 
 
 def _rays_of(rays: Indices, points: Indices, *, count: int) -> Indices:

@@ -64,15 +64,25 @@ def test_looking_around_the_moved_point_finds_as_much(surface: CutSurface) -> No
     assert (near == whole).all()
 
 
-def test_crossings_of_the_outer_surface_alone_are_not_cured_here(surface: CutSurface) -> None:
-    """An outer point pulled out and over its neighbours folds the outer surface, and nothing else."""
+def test_a_fold_of_the_outer_surface_alone_is_a_fault(surface: CutSurface) -> None:
+    """An outer point is pulled out and over its neighbours."""
     made, number = built(surface, CLEARANCE), inside_yellow(surface)
     beside = surface.triangles[(surface.triangles == number).any(axis=1)].ravel()
     way = surface.points[beside] - surface.points[number]
     points = made.points.copy()
     points[number] += 2.5 * way[np.linalg.norm(way, axis=1).argmax()] + 0.2 * surface.normals[number]
     found = crossing_points(replace(made, points=points), clearance=CLEARANCE, moved=everywhere(surface))
-    assert not found.any()
+    assert found[number]
+    assert not found[np.linalg.norm(surface.points - surface.points[number], axis=1) > 15.0].any()
+
+
+def test_an_outer_edge_moved_over_is_near(surface: CutSurface) -> None:
+    made, count, number = built(surface, CLEARANCE), len(surface.points), int(surface.curves[0, 7])
+    points = made.points.copy()
+    points[number] = 0.3 * points[number] + 0.7 * points[2 * count + number]
+    found = near_points(replace(made, points=points), clearance=CLEARANCE, moved=everywhere(surface))
+    assert found[number]
+    assert not found[np.linalg.norm(surface.points - surface.points[number], axis=1) > 10.0].any()
 
 
 def test_an_inner_wall_moved_over_is_near(surface: CutSurface) -> None:

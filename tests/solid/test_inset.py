@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeAlias
+
 import numpy as np
 import pytest
+from scipy.sparse import csr_array
 
+from fabricate.arrays import Floats, Mask
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.cube import cube
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
 from fabricate.solid.inset import (
     DEPTH_SLOPE,
-    SHALLOWEST,
-    STUBBORN,
     capped_depth,
     downward,
     relaxed,
-    retreated,
-    retreating,
-    safe_share,
     spread,
     ways_in,
 )
@@ -31,6 +31,8 @@ from fabricate.triangles.normals import area_vectors
 from fabricate.triangles.search_tree import SearchTree
 
 DEPTH = 2.0
+
+Mending: TypeAlias = Callable[[CutSurface, Floats, Mask, csr_array], Floats]
 
 
 @pytest.fixture(scope="module")
@@ -97,49 +99,11 @@ def test_relaxing_flattens_a_spike_and_leaves_what_is_far(surface: CutSurface) -
     assert (flat == spiky)[~grown(faulty, means, 3)].all()
 
 
-def test_retreating_goes_towards_the_safe_depth_and_never_beyond(surface: CutSurface) -> None:
+@pytest.mark.parametrize("kind", [spread, relaxed])
+def test_nothing_faulty_moves_nothing(surface: CutSurface, kind: Mending) -> None:
     means = neighbour_means(surface.triangles, count=len(surface.points))
-    inner, safe, faulty = under(surface), surface.points - 0.1 * surface.normals, one(surface)
-    around = retreating(surface, faulty, means)
-    moved = retreated(inner, around, means, safe=safe, times=around.astype(int))
-    depth = np.einsum("ij,ij->i", surface.points - moved, surface.normals)
-    assert depth.min() >= 0.1 - 1e-9
-    assert depth.max() <= DEPTH + 1e-9
-    assert depth[faulty].max() < 0.7 * DEPTH
-
-
-def test_what_retreats_often_is_soon_at_the_safe_depth(surface: CutSurface) -> None:
-    means = neighbour_means(surface.triangles, count=len(surface.points))
-    inner, safe, faulty = under(surface), surface.points - 0.1 * surface.normals, one(surface)
-    around = retreating(surface, faulty, means)
-    for round_number in range(1, 9):
-        inner = retreated(inner, around, means, safe=safe, times=round_number * around)
-    assert (inner == safe)[around].all()
-
-
-def test_a_ray_retreats_as_a_whole(surface: CutSurface) -> None:
-    means = neighbour_means(surface.triangles, count=len(surface.points))
-    ray = surface.curve_rays[9]
-    inner, safe = under(surface), surface.points - 0.1 * surface.normals
-    around = retreating(surface, one(surface, int(ray[1])), means)
-    moved = retreated(inner, around, means, safe=safe, times=around.astype(int))
-    way = np.linalg.norm(moved - inner, axis=1)[ray]
-    assert way == pytest.approx(np.full(len(ray), way[0]))
-    assert way[0] > 0
-
-
-@pytest.mark.parametrize("kind", ["spread", "relaxed", "retreated"])
-def test_nothing_faulty_moves_nothing(surface: CutSurface, kind: str) -> None:
-    means = neighbour_means(surface.triangles, count=len(surface.points))
-    inner, none, safe = under(surface), np.zeros(len(surface.points), dtype=bool), surface.points
-    result = {
-        "spread": lambda: spread(surface, inner, none, means),
-        "relaxed": lambda: relaxed(surface, inner, none, means),
-        "retreated": lambda: retreated(
-            inner, retreating(surface, none, means), means, safe=safe, times=none.astype(int)
-        ),
-    }[kind]()
-    assert (result == inner).all()
+    inner, none = under(surface), np.zeros(len(surface.points), dtype=bool)
+    assert (kind(surface, inner, none, means) == inner).all()
 
 
 def test_ways_into_a_ball_are_straight_and_as_long_as_the_depth(ball: CutSurface) -> None:
@@ -188,8 +152,3 @@ def test_the_way_down_goes_in_through_triangles_that_the_normal_leaves(surface: 
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     assert (normals @ tilted[number]).min() < 0.1
     assert (normals @ way[number]).max() <= -0.29
-
-
-def test_the_safe_depth_is_halved_for_stubborn_points_down_to_a_least_share() -> None:
-    times = np.array([0, STUBBORN, STUBBORN + 1, STUBBORN + 2, STUBBORN + 60])
-    assert safe_share(times).tolist() == [1.0, 1.0, 0.5, 0.25, SHALLOWEST]

@@ -7,12 +7,10 @@ import pytest
 
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.torus import torus
-from fabricate.solid.assembly import assembly
-from fabricate.solid.layers import NEAR, Layer, flipped, hugging, layer, layer_shares, shares_near, wall
+from fabricate.solid.layers import Layer, flipped, layer, layer_shares, shares_near, wall
 from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
-from fabricate.triangles.crossing import crossing_triangles
 
 SIDES = 12
 TURN = np.arange(SIDES) * (2 * np.pi / SIDES)
@@ -102,24 +100,3 @@ def test_a_layer_close_under_another_moves_like_it(surface: CutSurface) -> None:
         np.testing.assert_allclose(own, above, atol=1e-12)
         np.testing.assert_allclose(between, 0.5 * (above + below), atol=1e-12)
     assert all((own == below).all() for own, below in zip(far, lower, strict=True))
-
-
-def test_hardly_under_the_surface_nothing_crosses(surface: CutSurface) -> None:
-    """A hundredth of a millimetre down the facing parts are two skins that nowhere cut through each other."""
-    made = assembly(surface, surface.points - 0.01 * surface.normals, clearance=0.5, core="hollow")
-    assert len(crossing_triangles(made.points, np.concatenate(made.bodies))) == 0
-
-
-def test_hardly_under_another_a_layer_hugs_its_copies_and_deeper_it_is_itself(surface: CutSurface) -> None:
-    upper = apart_by(surface, np.full(surface.curves.shape[1], 0.5))
-    lower = Layer(tuple(copy - surface.normals for copy in upper.copies))
-    deep, close = (np.full(len(surface.points), depth) for depth in (2.0 * NEAR, 0.5 * NEAR))
-    assert hugging(surface, upper, lower, depth=deep) is lower
-    hugged = hugging(surface, upper, lower, depth=close)
-    for region, (above, below) in enumerate(zip(upper.copies, hugged.copies, strict=True)):
-        triangles = surface.triangles[surface.regions == region]
-        numbers = np.unique(triangles)
-        assert np.linalg.norm(below - above, axis=1)[numbers] == pytest.approx(0.5 * NEAR)
-        corners = above[triangles]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        assert (np.einsum("ij,ikj->ik", normals, (below - above)[triangles]) < 0).all()
