@@ -12,6 +12,7 @@ from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Assembly, Core, assembly, core_region
 from fabricate.solid.faults import crossing_points, near_points
+from fabricate.solid.joint import STRAIGHT, Joint
 from fabricate.solid.retreat import LAST, RINGS, SAFE_DEPTH, Retreat, receded, stepping
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.spacing import outer_copies
@@ -30,11 +31,18 @@ def surface() -> CutSurface:
     return fitted_cut(grown_duotone(quads, tree="random", seed=3), tolerance=0.4, clearance=CLEARANCE)
 
 
-def retreat_of(surface: CutSurface, *, depth: float = THICKNESS, core: Core = "hollow", seed: int = 0) -> Retreat:
+def retreat_of(
+    surface: CutSurface,
+    *,
+    depth: float = THICKNESS,
+    core: Core = "hollow",
+    seed: int = 0,
+    joint: Joint = STRAIGHT,
+) -> Retreat:
     """Return the retreat from inner points that are `depth` deep, with noise of half of that if there is a seed."""
     noise = np.random.default_rng(seed).uniform(-0.5, 0.5, surface.points.shape) if seed else 0.0
     inner = surface.points + depth * (noise - surface.normals)
-    made = assembly(surface, inner, clearance=CLEARANCE, core=core)
+    made = assembly(surface, inner, clearance=CLEARANCE, core=core, joint=joint)
     copies, keeper = outer_copies(surface, clearance=CLEARANCE), core_region(core, regions=len(made.bodies))
     return Retreat.of(surface, made, copies, thickness=THICKNESS, keeper=keeper)
 
@@ -53,6 +61,21 @@ def test_without_a_step_everything_is_where_it_was(surface: CutSurface, core: Co
     retreat = retreat_of(surface, core=core)
     after = retreat.after(np.zeros(len(surface.points)))
     assert after.points == pytest.approx(retreat.proposed.points, abs=1e-5)
+
+
+@pytest.mark.parametrize("steps", [0, 3, 6, LAST])
+@pytest.mark.parametrize("core", CORES)
+def test_ridges_go_back_with_their_walls(surface: CutSurface, core: Core, steps: int) -> None:
+    """They stay between the outer and the inner edge of their wall, in order, and nothing crosses."""
+    tongue = Joint(kind="tongue", height=0.45, width=1.2)
+    retreat = retreat_of(surface, core=core, joint=tongue)
+    made = retreat.after(np.full(len(surface.points), float(steps)))
+    assert not crossing_points(made, clearance=CLEARANCE, moved=everywhere(made)).any()
+    walls = made.walls(surface.curves[0], 0)
+    down = walls[:, -1:] - walls[:, :1]
+    share = ((walls - walls[:, :1]) * down).sum(axis=-1) / np.maximum((down**2).sum(axis=-1), 1e-12)
+    assert walls.shape[1] == 7
+    assert (np.diff(share, axis=1) > -0.05).all()
 
 
 @pytest.mark.parametrize("steps", [6, LAST])
@@ -87,8 +110,7 @@ def test_everything_is_cured_and_what_is_well_stays(surface: CutSurface, core: C
 
 def assembly_with(retreat: Retreat, points: np.ndarray) -> Retreat:
     made = retreat.proposed
-    moved = Assembly(points, made.bodies, made.gap, made.shell, made.surface_points)
-    return replace(retreat, proposed=moved)
+    return replace(retreat, proposed=replace(made, points=points))
 
 
 def test_what_no_path_cures_is_left_after_a_bounded_number_of_rounds(surface: CutSurface) -> None:
