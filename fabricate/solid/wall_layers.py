@@ -190,8 +190,8 @@ def _drawn_together(moves: _Moves, wide: Floats, least: Floats) -> _Moves:
 
 
 def _eased(size: Floats, tight: Mask) -> Floats:
-    """Return the size of a joint along each curve, (k, c) as shares, smaller where it is tight."""
-    return np.stack([gently(each) for each in size * np.where(tight, EASIER, 1.0)]) if tight.any() else size
+    """Return the size of a joint along each curve, (k, c) as shares, smaller where it is tight and close by."""
+    return size * np.stack([gently(each) for each in np.where(tight, EASIER, 1.0)])
 
 
 def _deeper(surface: CutSurface, layers: WallLayers, drop: Floats, *, keeper: int, clearance: float) -> Floats:
