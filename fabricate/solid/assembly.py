@@ -18,42 +18,14 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices, frozen
 from fabricate.region_names import region_names
-from fabricate.solid.facing import wall_gaps
-from fabricate.solid.floor import floor_drop, lowered
-from fabricate.solid.joint import STRAIGHT, Joint, asides, gently, ridges
-from fabricate.solid.layers import (
-    Layer,
-    flipped,
-    layer,
-    layer_shares,
-    moved_aside,
-    shares_aside,
-    shares_near,
-    wall,
-)
+from fabricate.solid.facing import mid_lines
+from fabricate.solid.joint import STRAIGHT, Joint, asides, ridges
+from fabricate.solid.layers import Layer, flipped, moved_aside, wall
 from fabricate.solid.part import Part
-from fabricate.solid.unfolding import unfolded
+from fabricate.solid.wall_layers import wall_layers
 from fabricate.surface.cut import CutSurface
-from fabricate.triangles.normals import unit
 
 Core: TypeAlias = Literal["hollow", "yellow", "blue"]
-
-CORRECTIONS, MOST_ADDED = 3, 1.25
-"""How often walls are measured to move apart what is too near, and by which factor they move at most each time."""
-
-EASINGS = {"straight": 0, "draft": 1, "tongue": 3}
-"""How often before that joints become smaller where walls are too near."""
-
-EASED, EASIER = {"straight": np.inf, "draft": 1.04, "tongue": 1.025}, 0.6
-"""Clearance over measured gap from which on a joint gets smaller, and to which share each time: walls moved apart as
-far as that would leave too wide a gap."""
-
-NOTHING_MISSING = 1.01
-"""Clearance over measured gap from which on walls are moved apart."""
-
-CLOSE = 0.75
-"""Over this share of the clearance, below a depth as large as it, the curve on an inner layer comes to lie right under
-that on the outer one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,9 +96,7 @@ class Assembly:
 
         Of walls with a ridge it is one along each of the ridge's rings.
         """
-        walls = self.walls(curve, region)
-        middles: Floats = walls[:, 1:-1].mean(axis=0) if walls.shape[1] > 2 else walls.mean(axis=(0, 1))
-        return middles.reshape(-1, 3)
+        return mid_lines(self.walls(curve, region)).reshape(-1, 3)
 
     def _part(self, name: str, triangles: Indices) -> Part:
         used = np.zeros(len(self.points), dtype=bool)
@@ -163,21 +133,6 @@ class _Blocks:
         return self.layers[-1]
 
 
-@dataclass(frozen=True, eq=False)
-class _Layers:
-    """The layers of all parts; rings of the walls between the outer and the inner one; the floor of a core."""
-
-    outer: Layer
-    inner: Layer
-    rings: list[Layer]
-    floor: Layer | None
-
-    def down(self, *, to_floor: bool) -> list[Layer]:
-        """Return those that a wall runs along, from the outside in."""
-        floor = [self.floor] if to_floor and self.floor is not None else []
-        return [self.outer, *self.rings, self.inner, *floor]
-
-
 def core_region(core: Core, *, regions: int) -> int | None:
     """Return the number of the region that keeps the inside."""
     return {"hollow": None, "yellow": 0, "blue": regions - 1}[core]
@@ -198,7 +153,7 @@ def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core
         places = [whole] * regions
         blocks = [surface.points, under, *rings]
     else:
-        found = _layers(surface, inner, clearance=clearance, keeper=keeper, joint=joint)
+        found = wall_layers(surface, inner, clearance=clearance, keeper=keeper, joint=joint)
         blocks = [copy for pair in zip(found.outer.copies, found.inner.copies, strict=True) for copy in pair]
         blocks += [surface.points, inner, *(copy for ring in found.rings for copy in ring.copies)]
         floor = len(blocks) * n if found.floor is not None else None
@@ -226,86 +181,12 @@ def assembly(surface: CutSurface, inner: Floats, *, clearance: float, core: Core
     )
 
 
-def _layers(surface: CutSurface, inner: Floats, *, clearance: float, keeper: int | None, joint: Joint) -> _Layers:
-    """Return all layers.
-
-    Where walls lean or twist they are nearer to each other than their edges: there the edges are moved
-    further apart, by as much as is missing, a few times; likewise a floor is lowered.
-    """
-    down = unit(inner - surface.points)
-    drop = floor_drop(inner, surface.triangles, down, clearance=clearance)
-    depth = np.linalg.norm(inner - surface.points, axis=1)
-    nearness = np.clip((clearance - depth[surface.curves]) / (CLOSE * clearance), 0.0, 1.0)
-    aside = asides(surface, inner, joint, clearance=clearance) if joint.kind == "draft" else ()
-    wanted, size = np.full(surface.curves.shape, clearance), np.ones(surface.curves.shape)
-    easings = EASINGS[joint.kind]
-    for step in range(easings + CORRECTIONS):
-        levels = [surface.points, inner] + ([] if keeper is None else [inner + drop[:, None] * down])
-        outer_own, *under = [layer_shares(surface, points, down, clearance=wanted) for points in levels]
-        outer_own = unfolded(surface, surface.points, outer_own)
-        under[0] = tuple(
-            shares_near(above, own, nearness=near)
-            for above, own, near in zip(outer_own, under[0], nearness, strict=True)
-        )
-        if joint.kind == "draft":
-            eased = [share * full for share, full in zip(size, aside, strict=True)]
-            under = [shares_aside(surface, *each, asides=eased) for each in zip(levels[1:], under, strict=True)]
-        outer, lower, *floor = [layer(surface, *each) for each in zip(levels, [outer_own, *under], strict=True)]
-        rings = ridges(surface, outer, lower, joint, size=size, clearance=clearance)
-        layers = _Layers(outer, lower, rings, floor[0] if floor else None)
-        missing = clearance / np.maximum(_wall_gaps(surface, layers, keeper), 1e-9)
-        short = (missing > NOTHING_MISSING).any()
-        if keeper is not None:
-            deeper = _deeper(surface, layers, drop, keeper=keeper, clearance=clearance)
-            short |= (deeper > NOTHING_MISSING * drop).any()
-            drop = deeper
-        if not short:
-            break
-        ease = EASED[joint.kind] if step < easings else np.inf
-        size = _eased(size, missing, ease=ease)
-        wanted = wanted * np.clip(_widened(missing), 1.0, min(MOST_ADDED, ease))
-    return layers
-
-
-def _eased(size: Floats, missing: Floats, *, ease: float) -> Floats:
-    """Return the size of a joint along each curve, (k, c) as shares, smaller where more of the gap is missing there."""
-    tight = missing > ease
-    return np.stack([gently(each) for each in size * np.where(tight, EASIER, 1.0)]) if tight.any() else size
-
-
 def _common(surface: CutSurface, ring: Layer) -> Floats:
     """Return a ring of parts that touch, whose copies are the same, as one, (n, 3); only curves have points there."""
     points = np.zeros_like(surface.points)
     for copy, curve in zip(ring.copies, surface.curves, strict=False):
         points[curve] = copy[curve]
     return points
-
-
-def _deeper(surface: CutSurface, layers: _Layers, drop: Floats, *, keeper: int, clearance: float) -> Floats:
-    """Return how far the floor has to lie below the inner points for the clearance under every other part, (n,) mm."""
-    deeper = drop
-    for region, ceiling in enumerate(layers.inner.copies):
-        if region != keeper and layers.floor is not None:
-            floor = layers.floor.copies[keeper]
-            inlaid = surface.triangles[surface.regions == region]
-            deeper = np.maximum(deeper, lowered(drop, ceiling, floor, inlaid, clearance=clearance))
-    return deeper
-
-
-def _wall_gaps(surface: CutSurface, layers: _Layers, keeper: int | None) -> Floats:
-    """Return how far apart the walls are beside each curve point, (k, c); only a core's goes down to the floor."""
-
-    def wall_edges(region: int, curve: Indices) -> list[Floats]:
-        return [each.copies[region][curve] for each in layers.down(to_floor=region == keeper)]
-
-    sides = [(wall_edges(number, curve), wall_edges(number + 1, curve)) for number, curve in enumerate(surface.curves)]
-    return np.stack([wall_gaps(left, right) for left, right in sides])
-
-
-def _widened(values: Floats) -> Floats:
-    """Return for each point of each curve, (k, c), the largest value among it and its neighbours."""
-    widened: Floats = np.maximum.reduce([values, np.roll(values, 1, axis=1), np.roll(values, -1, axis=1)])
-    return widened
 
 
 def _faces(surface: CutSurface, at: _Blocks, region: int, keeper: int | None) -> tuple[Indices, Indices]:

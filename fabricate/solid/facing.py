@@ -1,4 +1,4 @@
-"""The facing walls of two parts along a curve: how far apart they are between two layers."""
+"""The facing walls of two parts along a curve: how far apart they are, at least and along their mid-line."""
 
 from __future__ import annotations
 
@@ -31,6 +31,26 @@ def wall_gaps(left: Sequence[Floats], right: Sequence[Floats]) -> Floats:
             distance = tree.nearest(np.concatenate(down + across)).distance.reshape(-1, len(upper))
             gaps = np.minimum.reduce([gaps, *distance, *np.roll(distance[len(down) :], 1, axis=1)])
     return gaps
+
+
+def middle_gaps(left: Sequence[Floats], right: Sequence[Floats]) -> Floats:
+    """Return the largest distance between the facing walls along their mid-line beside each curve point, (c,) mm.
+
+    `left` and `right` are those of `wall_gaps`. Of walls with a ridge there is a mid-line along each of its rings.
+    """
+    middles = mid_lines(np.array([left, right]))
+    on_left = _wall_tree(left).nearest(middles.reshape(-1, 3)).point
+    widest: Floats = _wall_tree(right).nearest(on_left).distance.reshape(-1, len(left[0])).max(axis=0)
+    return widest
+
+
+def mid_lines(walls: Floats) -> Floats:
+    """Return the mid-lines, (r, c, 3), between facing walls, (2, l, c, 3): one along each ring between their edges.
+
+    Of walls without rings it is halfway down.
+    """
+    middles: Floats = walls[:, 1:-1].mean(axis=0) if walls.shape[1] > 2 else walls.mean(axis=(0, 1))[None]
+    return middles
 
 
 def _wall_tree(copies: Sequence[Floats]) -> SearchTree:

@@ -1,4 +1,4 @@
-"""Facing walls: distances between prisms, cones and walls that come near each other at one place."""
+"""Facing walls: distances between prisms, cones and walls that come near each other at one place, and their middles."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from fabricate.arrays import Floats
-from fabricate.solid.facing import wall_gaps
+from fabricate.solid.facing import mid_lines, middle_gaps, wall_gaps
 from fabricate.solid.layers import wall
 
 SIDES = 24
@@ -59,3 +59,31 @@ def test_no_gap_is_smaller_than_between_dense_samples() -> None:
     squared = igl.point_mesh_squared_distance(samples, walls[1].vertices, walls[1].faces)[0]
     assert gaps.min() >= np.sqrt(squared.min()) - 0.02
     assert gaps.min() <= np.sqrt(squared.min()) + 0.05
+
+
+def test_the_middle_gap_of_walls_that_part_downwards_is_that_halfway_down() -> None:
+    yellow, blue = prisms(inner=10.0, outer=10.2)
+    blue[1] = 10.6 * RING - DOWN
+    gaps = middle_gaps(yellow, blue)
+    lean = np.cos(np.arctan2(0.4, 2.0))
+    assert gaps == pytest.approx(np.full(SIDES, 0.4 * lean), rel=0.05)
+    assert wall_gaps(yellow, blue).max() < 0.21
+
+
+def test_of_walls_with_rings_the_widest_counts_and_only_there() -> None:
+    yellow, blue = ([radius * RING - share * DOWN for share in (0.0, 0.3, 0.7, 1.0)] for radius in (10.0, 10.3))
+    narrow = middle_gaps(yellow, blue)
+    blue[2][5] += 0.3 * RING[5]
+    wide = middle_gaps(yellow, blue)
+    assert wide.argmax() == 5
+    assert wide[5] > narrow[5] + 0.1
+    assert wide[15] == narrow[15]
+
+
+def test_mid_lines_are_one_per_ring_or_halfway_down() -> None:
+    yellow, blue = prisms(inner=10.0, outer=10.4)
+    assert mid_lines(np.array([yellow, blue])) == pytest.approx((10.2 * RING - 0.5 * DOWN)[None])
+    rings = [
+        np.insert(np.array(each), 1, [each[0] - 0.2 * DOWN, each[0] - 0.6 * DOWN], axis=0) for each in (yellow, blue)
+    ]
+    assert mid_lines(np.array(rings)) == pytest.approx(np.stack([10.2 * RING - share * DOWN for share in (0.2, 0.6)]))
