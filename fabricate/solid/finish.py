@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fabricate.solid.assembly import Assembly
@@ -63,9 +62,9 @@ def finished(surface: CutSurface, made: Assembly, wish: FinishWish) -> Finished:
     Raises
     ------
     SolidError
-        If there is no room for them; says what there is room for.
+        If there is no room for them, or none at which the parts stay sound; says what to ask for.
     """
-    parts: Sequence[Part] = made.parts
+    parts = list(made.parts)
     gap, shell = made.spaces
     if not wish.opening_count and not wish.stand_height:
         return Finished(tuple(parts), (gap, shell))
@@ -81,8 +80,10 @@ def finished(surface: CutSurface, made: Assembly, wish: FinishWish) -> Finished:
             clearance=wish.clearance,
             rim=wish.wall,
         )
-        parts = [drilled(part, openings, tolerance=wish.tolerance) for part in parts]
-        solid = solid - drills(openings, tolerance=wish.tolerance)
+        for number, part in enumerate(parts):
+            parts[number], turn = drilled(part, openings, tolerance=wish.tolerance)
+            own = [opening for opening in openings if opening.part == part.name]
+            solid = solid - drills(own, tolerance=wish.tolerance, turn=turn)
     if wish.stand_height:
         stand = placed_stand(
             parts,
@@ -92,6 +93,7 @@ def finished(surface: CutSurface, made: Assembly, wish: FinishWish) -> Finished:
             wall=wish.wall,
             tolerance=wish.tolerance,
         )
-        parts = [standing(part, stand, tolerance=wish.tolerance) for part in parts]
-        solid = solid + stand_solid(stand, tolerance=wish.tolerance)
+        number = [part.name for part in parts].index(stand.part)
+        parts[number], turn = standing(parts[number], stand, tolerance=wish.tolerance)
+        solid = solid + stand_solid(stand, tolerance=wish.tolerance, turn=turn)
     return Finished(tuple(parts), (gap, part_of(shell.name, solid)), openings, stand)

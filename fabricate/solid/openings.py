@@ -14,10 +14,10 @@ from manifold3d import Manifold
 
 from fabricate.arrays import Floats, Indices
 from fabricate.errors import SolidError
-from fabricate.solid.booleans import Cylinder, bar, manifold_of, part_of, united
+from fabricate.solid.booleans import Cylinder, bar, united
 from fabricate.solid.part import Part, joined
 from fabricate.solid.room import Places
-from fabricate.triangles.crossing import crossing_triangles
+from fabricate.solid.sound_turn import Turned, soundly_turned
 from fabricate.triangles.ray_casting import first_hits
 from fabricate.triangles.search_tree import SearchTree
 
@@ -32,9 +32,6 @@ DOWN = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 BEYOND = 1.0
 """How far an opening goes on beyond both faces of the wall, in radii."""
-
-TURNS = (0.0, 1.7, 3.1, 4.9)
-"""Turns of the drill, degrees, that are tried until no triangles cross when coordinates are rounded."""
 
 
 class Opening(NamedTuple):
@@ -140,20 +137,24 @@ def _apart(spots: Floats, count: int) -> list[int]:
     return chosen
 
 
-def drilled(part: Part, openings: Sequence[Opening], *, tolerance: float) -> Part:
-    """Return the part with holes where its openings are; other parts' openings leave it as it is.
+def drilled(part: Part, openings: Sequence[Opening], *, tolerance: float) -> Turned:
+    """Return the part with holes where its openings are, and their turn; other parts' openings leave it as it is.
 
     The sides of a hole are as short as the chord error, mm, asks for.
+
+    Raises
+    ------
+    SolidError
+        If the part does not stay sound at any turn of the drills.
     """
     own = [opening for opening in openings if opening.part == part.name]
     if not own:
-        return part
-    solid = manifold_of(part)
-    for turn in TURNS:
-        holed = part_of(part.name, solid - drills(own, tolerance=tolerance, turn=turn))
-        if not len(crossing_triangles(holed.points, holed.triangles)):
-            break
-    return holed
+        return Turned(part, 0.0)
+    return soundly_turned(
+        part,
+        lambda solid, turn: solid - drills(own, tolerance=tolerance, turn=turn),
+        advice="ask for another solid.openings.diameter or pattern.seed",
+    )
 
 
 def drills(openings: Sequence[Opening], *, tolerance: float, turn: float = 0.0) -> Manifold:

@@ -14,9 +14,10 @@ from manifold3d import Manifold
 
 from fabricate.arrays import Floats
 from fabricate.errors import SolidError
-from fabricate.solid.booleans import Cylinder, bar, manifold_of, part_of, united
+from fabricate.solid.booleans import Cylinder, bar, manifold_of, united
 from fabricate.solid.part import Part, joined
 from fabricate.solid.room import Places
+from fabricate.solid.sound_turn import Turned, soundly_turned
 from fabricate.triangles.adjacency import undirected_edges
 from fabricate.triangles.ray_casting import first_hits
 
@@ -186,16 +187,25 @@ def _kept_away(feet: Sequence[Cylinder], others: Manifold, *, gap: float, tolera
     return tuple(kept)
 
 
-def stand_solid(stand: Stand, *, tolerance: float) -> Manifold:
-    """Return the plate with its feet, as round as the chord error, mm, asks for."""
-    return united([bar(each, tolerance=tolerance) for each in (stand.plate, *stand.feet)])
+def stand_solid(stand: Stand, *, tolerance: float, turn: float = 0.0) -> Manifold:
+    """Return the plate with its feet, as round as the chord error, mm, asks for; each turned by some degrees."""
+    return united([bar(each, tolerance=tolerance, turn=turn) for each in (stand.plate, *stand.feet)])
 
 
-def standing(part: Part, stand: Stand, *, tolerance: float) -> Part:
-    """Return the part united with the stand; other parts as they are.
+def standing(part: Part, stand: Stand, *, tolerance: float) -> Turned:
+    """Return the part united with the stand, and the stand's turn; other parts as they are.
 
     Each foot but the first closes a loop through plate and part, which is a handle.
+
+    Raises
+    ------
+    SolidError
+        If the part does not stay sound at any turn of the stand's bars.
     """
     if part.name != stand.part:
-        return part
-    return part_of(part.name, manifold_of(part) + stand_solid(stand, tolerance=tolerance))
+        return Turned(part, 0.0)
+    return soundly_turned(
+        part,
+        lambda solid, turn: solid + stand_solid(stand, tolerance=tolerance, turn=turn),
+        advice="ask for another solid.base.height or pattern.seed",
+    )

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from bar_at_corner import UP, bar_at_corner
 from crafted import Crafted, crafted
 
 from fabricate.errors import SolidError
 from fabricate.mesh.torus import torus
-from fabricate.solid.booleans import manifold_of
-from fabricate.solid.openings import Opening, drilled, placed_openings
+from fabricate.solid.booleans import manifold_of, part_of
+from fabricate.solid.openings import Opening, drilled, drills, placed_openings
 from fabricate.solid.room import roomy_places
+from fabricate.solid.sound_turn import is_sound
 from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.search_tree import SearchTree
 
@@ -32,7 +34,7 @@ def test_each_opening_is_a_handle_and_takes_its_own_volume(ring: Crafted) -> Non
     assert len(openings) == 3
     for part in ring.made.parts:
         count = sum(opening.part == part.name for opening in openings)
-        before, holed = manifold_of(part), drilled(part, openings, tolerance=0.05)
+        before, holed = manifold_of(part), drilled(part, openings, tolerance=0.05).part
         after = manifold_of(holed)
         assert after.genus() == before.genus() + count
         taken = count * np.pi * (DIAMETER / 2) ** 2 * THICKNESS
@@ -44,7 +46,7 @@ def test_each_opening_is_a_handle_and_takes_its_own_volume(ring: Crafted) -> Non
 def test_what_is_not_at_an_opening_stays_to_the_last_bit(ring: Crafted) -> None:
     openings = placed(ring)
     for part in ring.made.parts:
-        holed = drilled(part, openings, tolerance=0.05)
+        holed = drilled(part, openings, tolerance=0.05).part
         at = np.array([opening.at for opening in openings if opening.part == part.name]).reshape(-1, 1, 3)
         far = (np.linalg.norm(part.points - at, axis=2) > 2 * DIAMETER).all(axis=0)
         kept = {tuple(point) for point in holed.points.tolist()}
@@ -77,4 +79,16 @@ def test_what_does_not_fit_is_refused_with_the_size_that_would(ring: Crafted) ->
 
 def test_a_part_without_openings_is_left_as_it_is(ring: Crafted) -> None:
     part = ring.made.parts[0]
-    assert drilled(part, [], tolerance=0.05) is part
+    assert drilled(part, [], tolerance=0.05).part is part
+
+
+def test_drills_are_turned_until_the_part_stays_sound_in_its_file() -> None:
+    """The drill of an opening is as long as its wall and a radius more at either end."""
+    part, bar = bar_at_corner(radius=2.0, tolerance=0.05)
+    opening = Opening(part.name, bar.begin + 2.0 * UP, UP, 4.0, 5.0)
+    straight = manifold_of(part) - drills([opening], tolerance=0.05)
+    assert not is_sound(part_of("yellow", straight))
+    found = drilled(part, [opening], tolerance=0.05)
+    assert found.turn > 0.0
+    assert is_sound(found.part)
+    assert manifold_of(found.part).volume() == pytest.approx(straight.volume(), rel=1e-3)
