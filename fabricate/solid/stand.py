@@ -6,6 +6,7 @@ widest places of the part's region that are low and face down, so that they stay
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -23,6 +24,10 @@ from fabricate.triangles.ray_casting import first_hits
 
 LEAST_GAP = 0.3
 """Least distance of the stand from what it does not belong to, mm, where the clearance is less."""
+
+ROUNDED, ADVISED = 0.002, 0.01
+"""By how much a plate is thicker than it has to be, for what rounding to float32 takes; heights advised are multiples
+of the second; mm."""
 
 LEAST_FOOT, MOST_FEET = 1.0, 8
 """Smallest radius of a foot, mm, and how many there are at most."""
@@ -74,10 +79,11 @@ def placed_stand(
         If the height leaves no plate, or the part with the lowest point has no room for a foot.
     """
     gap = max(clearance, LEAST_GAP)
-    if height < gap + wall:
+    least = math.ceil((gap + wall + ROUNDED) / ADVISED) * ADVISED
+    if height < gap + wall + ROUNDED:
         raise SolidError(
             f"a stand {height:g} mm high has no room for a plate of {wall:g} mm and a gap of {gap:g} mm above it; "
-            f"ask for solid.base.height of at least {gap + wall:.3g} mm"
+            f"ask for solid.base.height of at least {least:.6g} mm"
         )
     lowest = [float(part.points[:, 2].min()) for part in parts]
     own = int(np.argmin(lowest))
