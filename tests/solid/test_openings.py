@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from bar_at_corner import UP, bar_at_corner
@@ -120,10 +122,8 @@ def test_openings_leave_a_rim_between_them() -> None:
         placed_openings(task, diameter=2.5, count=3, rim=RIM)
     fits = float(str(caught.value).split("the largest that fits is ")[1].split(" mm")[0])
     assert 1.9 < fits <= 3.0 - RIM
-    first, second = (
-        drills([each], tolerance=0.05) for each in placed_openings(task, diameter=fits, count=3, rim=RIM)[:2]
-    )
-    assert first.min_gap(second, 10.0) >= RIM
+    bars = [drills([each], tolerance=0.05) for each in placed_openings(task, diameter=fits, count=3, rim=RIM)]
+    assert min(one.min_gap(other, 10.0) for one, other in combinations(bars, 2)) >= RIM
 
 
 def test_the_way_out_is_free_of_the_stand(ring: Crafted) -> None:
