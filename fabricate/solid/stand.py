@@ -29,6 +29,9 @@ ROUNDED, ADVISED = 0.002, 0.01
 """By how much a plate is thicker than it has to be, for what rounding to float32 takes; heights advised are multiples
 of the second; mm."""
 
+WITHIN = 0.3
+"""How far feet stay within the walls of their own part that face others, mm: a top that stands out is a thin ledge."""
+
 LEAST_FOOT, MOST_FEET = 1.0, 8
 """Smallest radius of a foot, mm, and how many there are at most."""
 
@@ -71,7 +74,8 @@ def placed_stand(
 ) -> Stand:
     """Plan a stand that lifts the sculpture by `height`, for all parts; lengths in mm.
 
-    Its plate is at least `wall` thick. The stand keeps the clearance from other parts, and 0.3 mm at least.
+    Its plate is at least `wall` thick, and keeps the clearance from what is above it, 0.3 mm at least. Feet keep 0.3 mm
+    more than the clearance from other parts.
 
     Raises
     ------
@@ -89,8 +93,9 @@ def placed_stand(
     own = int(np.argmin(lowest))
     bottom = min(lowest) - height
     others = joined("others", [*parts[:own], *parts[own + 1 :]])
-    feet = _feet(parts[own], others, _low(places, part=own), bottom=bottom, gap=gap)
-    feet = _kept_away(feet, manifold_of(others), gap=gap, tolerance=tolerance)
+    away = clearance + WITHIN
+    feet = _feet(parts[own], others, _low(places, part=own), bottom=bottom, gap=away)
+    feet = _kept_away(feet, manifold_of(others), gap=away, tolerance=tolerance)
     if not feet:
         raise SolidError(
             f"{parts[own].name}, which has the lowest point, has no place near the bottom that faces down and is wide "

@@ -12,7 +12,7 @@ from fabricate.mesh.crease import creased
 from fabricate.mesh.cube import cube
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Core
-from fabricate.solid.booleans import manifold_of, part_of
+from fabricate.solid.booleans import bar, manifold_of, part_of
 from fabricate.solid.room import roomy_places
 from fabricate.solid.sound_turn import is_sound
 from fabricate.solid.stand import Stand, placed_stand, stand_solid, standing
@@ -71,6 +71,18 @@ def test_the_stand_keeps_the_gap_from_the_other_part(body: tuple[Crafted, float]
     assert (own ^ other).volume() == pytest.approx(0.0, abs=1e-6)
     if clearance > 0.0:
         assert own.min_gap(other, 2 * clearance) >= 0.95 * clearance
+
+
+def test_feet_go_up_into_their_own_part_alone(body: tuple[Crafted, float]) -> None:
+    """No foot's top stands out beside the part: nothing of the stand is left over the face that it goes into."""
+    crafted_body, clearance = body
+    stand = planned(crafted_body, clearance)
+    (own,) = (part for part in crafted_body.made.parts if part.name == stand.part)
+    solid = manifold_of(own)
+    for foot in stand.feet:
+        top = foot._replace(begin=foot.end - 0.01 * UP, end=foot.end)
+        disc = bar(top, tolerance=0.05)
+        assert (disc - solid).volume() < 1e-6 * disc.volume()
 
 
 def test_it_does_not_fall_over_when_tilted_by_ten_degrees(body: tuple[Crafted, float]) -> None:
