@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from fabricate.checks.draining import draining_checks, draining_notes
 from fabricate.checks.facts import WireFacts
 from fabricate.checks.finished import finish_facts, with_finish
 from fabricate.checks.joint_profile import joint_checks, joint_facts
@@ -119,7 +120,7 @@ def _sculpture(
         )
         judged = judged_parts([read_part(path) for path in paths], with_finish(wanted, ready))
         pattern = pattern_facts(design, certificate, surface)
-        joint = joint_facts(surface, made, solid.joint)
+        joint, finish = joint_facts(surface, made, solid.joint), finish_facts(ready)
         thread, alone = _judged_wire(folder, bent, process)
         watch.begin("pictures")
         write_pictures(folder, ready.parts, marks=witness_marks(ready.parts, judged.fit.pairs if judged.fit else {}))
@@ -139,10 +140,11 @@ def _sculpture(
             checks=judged.checks
             + alone
             + joint_checks(joint, clearance=solid.clearance)
+            + draining_checks(finish.openings, process=process)
             + share_checks(config.pattern.area_share, found=pattern.area_share["yellow"]),
             seconds=watch.ended(),
             wire=thread,
-            finish=finish_facts(ready),
+            finish=replace(finish, notes=draining_notes(finish.openings, core=solid.core, process=process)),
             joint=joint,
         )
         write_whole(folder / "report.json", report_json(report).encode())

@@ -124,7 +124,7 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
             *("components", "watertight", "self_intersections", "wall_mm", "neck_mm"),
         }
         assert set(part["wall_mm"]) == {"min", "median"}
-    assert report["finish"] == {"openings": [], "base": None}
+    assert report["finish"] == {"openings": [], "base": None, "notes": []}
     assert report["joint"]["kind"] == "straight"
     assert report["joint"]["ridge_mm"] is None
     assert set(report["fit"]) == {

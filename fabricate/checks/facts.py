@@ -298,10 +298,11 @@ class BaseFacts:
 
 @dataclass(frozen=True)
 class FinishFacts:
-    """What the parts have beside their regions."""
+    """What the parts have beside their regions, and what a user should know of that, in sentences."""
 
     openings: tuple[OpeningFacts, ...]
     base: BaseFacts | None
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

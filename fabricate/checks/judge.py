@@ -31,8 +31,8 @@ The codes of all checks, which other programs may rely on; PART stands for the n
 FIT is "fit" for two parts, and "fit.FIRST-SECOND" with their names for each pair of more. A single part has
 no fit.* checks but `fit.process_gap`, only a pattern that is known to have bands has `pattern.band`, and there are
 shop.* checks only of the limits that a shop has. What is not known or could not be measured is skipped, not left out.
-A run that was asked for an area share adds `pattern.area_share` (see `checks.share`), and one with a wire the PART.*
-checks of "wire".
+A run that was asked for an area share adds `pattern.area_share` (see `checks.share`), one for openings
+`finish.openings` where the process needs them (see `checks.draining`), and one with a wire the PART.* checks of "wire".
 """
 
 from __future__ import annotations

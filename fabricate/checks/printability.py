@@ -14,7 +14,7 @@ from fabricate.checks.check import Check
 from fabricate.checks.expectations import Band, Neck
 from fabricate.checks.facts import Narrowest
 from fabricate.checks.walls import Walls
-from fabricate.checks.wording import place
+from fabricate.checks.wording import place, share_of, told_apart
 from fabricate.process import Process
 from fabricate.solid.part import Part
 
@@ -30,12 +30,12 @@ def wall_check(part: Part, walls: Walls, *, process: Process | None) -> Check:
         message = f"the thinnest wall of {part.name} is {spread.min:.4g} mm; no process was named"
         return Check(code, ok=False, skipped=True, message=message, where=where[:1])
     ok = spread.min >= process.wall_min
-    rest = "" if ok else f"; {walls.share_below(process.wall_min):.2%} of the surface is thinner"
+    rest = "" if ok else f"; {share_of(walls.share_below(process.wall_min))} of the surface is thinner"
     return Check(
         code,
         ok=ok,
         message=f"walls of {part.name} must be at least {process.wall_min:g} mm thick for {process.name}, "
-        f"and the thinnest is {spread.min:.4g} mm{rest}",
+        f"and the thinnest is {told_apart(spread.min, process.wall_min)} mm{rest}",
         where=where[:1] if ok else where[walls.thickness < process.wall_min],
     )
 
@@ -56,7 +56,7 @@ def part_neck_check(name: str, neck: Narrowest | None, *, process: Process | Non
         code,
         ok=ok,
         message=f"necks of {name} must be at least {process.feature_min:g} mm wide for {process.name}, "
-        f"and the narrowest is {neck.min:.4g} mm{spot}",
+        f"and the narrowest is {told_apart(neck.min, process.feature_min)} mm{spot}",
         where=where,
     )
 
@@ -74,8 +74,9 @@ def neck_check(neck: Neck | None, *, clearance: float | None, process: Process |
     return Check(
         code,
         ok=ok,
-        message=f"necks must be at least {process.feature_min:g} mm wide for {process.name}, and the "
-        f"narrowest has {left:.4g} mm, {neck.width:.4g} mm less the clearance of {clearance:.4g} mm{advice}",
+        message=f"necks must be at least {process.feature_min:g} mm wide for {process.name}, and the narrowest has "
+        f"{told_apart(left, process.feature_min)} mm, {neck.width:.4g} mm less the clearance of {clearance:.4g} mm"
+        f"{advice}",
         where=np.array([neck.at]),
     )
 
@@ -104,7 +105,8 @@ def band_check(band: Band, *, clearance: float | None, process: Process | None) 
         code,
         ok=ok,
         message=f"bands must be at least {process.feature_min:g} mm wide for {process.name}, and the narrowest, "
-        f"{band.name}, has {left:.4g} mm, {band.width:.4g} mm less the clearance of {clearance:.4g} mm{advice}",
+        f"{band.name}, has {told_apart(left, process.feature_min)} mm, {band.width:.4g} mm less the clearance of "
+        f"{clearance:.4g} mm{advice}",
         where=np.array([band.at]),
     )
 
@@ -124,8 +126,8 @@ def process_gap_check(clearance: float | None, *, process: Process | None) -> Ch
         return Check(code, ok=False, skipped=True, message=message)
     if process.crack_closed is not None and clearance < process.crack_closed:
         message = (
-            f"a clearance of {clearance:.4g} mm is closed by slicers, which fill gaps under "
-            f"{process.crack_closed:g} mm; {process.name} needs {process.captive_gap:g} mm"
+            f"a clearance of {told_apart(clearance, process.crack_closed)} mm is closed by slicers, which fill gaps "
+            f"under {process.crack_closed:g} mm; {process.name} needs {process.captive_gap:g} mm"
         )
         return Check(code, ok=False, message=message)
     return Check(code, ok=True, message=_open_gap(clearance, process))
@@ -135,7 +137,7 @@ def _open_gap(clearance: float, process: Process) -> str:
     if clearance >= process.captive_gap:
         return f"a clearance of {clearance:.4g} mm prints loose with {process.name}"
     tight = (
-        f"a clearance of {clearance:.4g} mm is tight for {process.name}, "
+        f"a clearance of {told_apart(clearance, process.captive_gap)} mm is tight for {process.name}, "
         f"which needs {process.captive_gap:g} mm for parts that come out loose"
     )
     if process.tight_gap is not None and clearance >= process.tight_gap:

@@ -72,9 +72,10 @@ class Report:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a user should know of the mesh, its tiles and the curve, in sentences."""
+        """What a user should know of the mesh, its tiles, the curve and the finish, in sentences."""
         of_mesh = () if self.mesh is None else self.mesh.notes
-        return of_mesh + (() if self.pattern is None else self.pattern.tile_quality.warnings + self.pattern.notes)
+        of_pattern = () if self.pattern is None else self.pattern.tile_quality.warnings + self.pattern.notes
+        return of_mesh + of_pattern + (() if self.finish is None else self.finish.notes)
 
 
 def report_json(report: Report) -> str:

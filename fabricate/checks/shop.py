@@ -9,6 +9,7 @@ import numpy as np
 from fabricate.checks.check import Check
 from fabricate.checks.facts import PartFacts
 from fabricate.checks.walls import Walls
+from fabricate.checks.wording import told_apart
 from fabricate.config import ShopConfig
 from fabricate.solid.part import Part
 
@@ -75,7 +76,8 @@ def _wall_check(name: str, facts: PartFacts, walls: Walls, thinnest: float) -> C
         message = f"{name} has no opposite faces to measure a wall between"
         return Check(code, ok=False, skipped=True, message=message)
     ok = not facts.wall_mm.min < thinnest
-    message = f"the shop accepts walls of {thinnest:g} mm, and the thinnest of {name} has {facts.wall_mm.min:.4g} mm"
+    found = told_apart(facts.wall_mm.min, thinnest)
+    message = f"the shop accepts walls of {thinnest:g} mm, and the thinnest of {name} has {found} mm"
     return Check(
         code, ok=ok, message=message, where=walls.places[:1] if ok else walls.places[walls.thickness < thinnest]
     )

@@ -68,6 +68,12 @@ class Config(BaseModel):
         if solid.clearance >= 4 * thinnest:
             limit = f"less than four times the thickness, {format_length(4 * thinnest)}"
             raise _too_large("solid.clearance", solid.clearance, limit)
+        if solid.openings is not None and solid.openings.diameter > size:
+            raise _too_large(
+                "solid.openings.diameter", solid.openings.diameter, f"at most the size, {format_length(size)}"
+            )
+        if solid.base is not None and solid.base.height > size:
+            raise _too_large("solid.base.height", solid.base.height, f"at most the size, {format_length(size)}")
         rings = len(self.pattern.positions)
         if self.curve.wire is not None and rings > 1:
             raise wrong_value("curve.wire", f"a wire runs along one curve, found pattern.rings of {rings}: remove one")

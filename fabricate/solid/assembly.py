@@ -91,6 +91,12 @@ class Assembly:
         walls: Floats = self.points[begins[:, :, None] + curve]
         return walls
 
+    def joint_faces(self, curves: Indices, region: int) -> Indices:
+        """Return the triangles of a region's part along the curves, (k, c) int, that face other parts, (m, 3) int."""
+        rings = list(itertools.pairwise(self.levels[region]))
+        sides = [curve for number, curve in enumerate(curves) if number in (region - 1, region)]
+        return np.concatenate([wall(curve, lower, upper) for curve in sides for upper, lower in rings])
+
     def middles(self, curve: Indices, region: int) -> Floats:
         """Return the mid-line of the joint along a curve, (c,) int, between a region and the next one, (k, 3) mm.
 

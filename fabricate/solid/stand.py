@@ -6,6 +6,7 @@ widest places of the part's region that are low and face down, so that they stay
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -14,14 +15,22 @@ from manifold3d import Manifold
 
 from fabricate.arrays import Floats
 from fabricate.errors import SolidError
-from fabricate.solid.booleans import Cylinder, bar, manifold_of, part_of, united
+from fabricate.solid.booleans import Cylinder, bar, manifold_of, united
 from fabricate.solid.part import Part, joined
 from fabricate.solid.room import Places
+from fabricate.solid.sound_turn import Turned, soundly_turned
 from fabricate.triangles.adjacency import undirected_edges
 from fabricate.triangles.ray_casting import first_hits
 
 LEAST_GAP = 0.3
 """Least distance of the stand from what it does not belong to, mm, where the clearance is less."""
+
+ROUNDED, ADVISED = 0.002, 0.01
+"""By how much a plate is thicker than it has to be, for what rounding to float32 takes; heights advised are multiples
+of the second; mm."""
+
+WITHIN = 0.3
+"""How far feet stay within the walls of their own part that face others, mm: a top that stands out is a thin ledge."""
 
 LEAST_FOOT, MOST_FEET = 1.0, 8
 """Smallest radius of a foot, mm, and how many there are at most."""
@@ -65,7 +74,8 @@ def placed_stand(
 ) -> Stand:
     """Plan a stand that lifts the sculpture by `height`, for all parts; lengths in mm.
 
-    Its plate is at least `wall` thick. The stand keeps the clearance from other parts, and 0.3 mm at least.
+    Its plate is at least `wall` thick, and keeps the clearance from what is above it, 0.3 mm at least. Feet keep 0.3 mm
+    more than the clearance from other parts.
 
     Raises
     ------
@@ -73,17 +83,19 @@ def placed_stand(
         If the height leaves no plate, or the part with the lowest point has no room for a foot.
     """
     gap = max(clearance, LEAST_GAP)
-    if height < gap + wall:
+    least = math.ceil((gap + wall + ROUNDED) / ADVISED) * ADVISED
+    if height < gap + wall + ROUNDED:
         raise SolidError(
             f"a stand {height:g} mm high has no room for a plate of {wall:g} mm and a gap of {gap:g} mm above it; "
-            f"ask for solid.base.height of at least {gap + wall:.3g} mm"
+            f"ask for solid.base.height of at least {least:.6g} mm"
         )
     lowest = [float(part.points[:, 2].min()) for part in parts]
     own = int(np.argmin(lowest))
     bottom = min(lowest) - height
     others = joined("others", [*parts[:own], *parts[own + 1 :]])
-    feet = _feet(parts[own], others, _low(places, part=own), bottom=bottom, gap=gap)
-    feet = _kept_away(feet, manifold_of(others), gap=gap, tolerance=tolerance)
+    away = clearance + WITHIN
+    feet = _feet(parts[own], others, _low(places, part=own), bottom=bottom, gap=away)
+    feet = _kept_away(feet, manifold_of(others), gap=away, tolerance=tolerance)
     if not feet:
         raise SolidError(
             f"{parts[own].name}, which has the lowest point, has no place near the bottom that faces down and is wide "
@@ -186,16 +198,25 @@ def _kept_away(feet: Sequence[Cylinder], others: Manifold, *, gap: float, tolera
     return tuple(kept)
 
 
-def stand_solid(stand: Stand, *, tolerance: float) -> Manifold:
-    """Return the plate with its feet, as round as the chord error, mm, asks for."""
-    return united([bar(each, tolerance=tolerance) for each in (stand.plate, *stand.feet)])
+def stand_solid(stand: Stand, *, tolerance: float, turn: float = 0.0) -> Manifold:
+    """Return the plate with its feet, as round as the chord error, mm, asks for; each turned by some degrees."""
+    return united([bar(each, tolerance=tolerance, turn=turn) for each in (stand.plate, *stand.feet)])
 
 
-def standing(part: Part, stand: Stand, *, tolerance: float) -> Part:
-    """Return the part united with the stand; other parts as they are.
+def standing(part: Part, stand: Stand, *, tolerance: float) -> Turned:
+    """Return the part united with the stand, and the stand's turn; other parts as they are.
 
     Each foot but the first closes a loop through plate and part, which is a handle.
+
+    Raises
+    ------
+    SolidError
+        If the part does not stay sound at any turn of the stand's bars.
     """
     if part.name != stand.part:
-        return part
-    return part_of(part.name, manifold_of(part) + stand_solid(stand, tolerance=tolerance))
+        return Turned(part, 0.0)
+    return soundly_turned(
+        part,
+        lambda solid, turn: solid + stand_solid(stand, tolerance=tolerance, turn=turn),
+        advice="ask for another solid.base.height or pattern.seed",
+    )

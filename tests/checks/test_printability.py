@@ -49,6 +49,19 @@ def test_walls_are_held_against_the_process(process: Process) -> None:
     assert np.allclose(np.abs(thin.where[:, 2]), 0.99 * process.wall_min / 2, rtol=1e-6)
 
 
+def test_a_wall_just_too_thin_is_told_from_the_limit() -> None:
+    thin = wall(FDM.wall_min - 1e-5, FDM)
+    assert thin.failed
+    assert "the thinnest is 0.79999 mm" in thin.message
+
+
+def test_a_thin_place_is_not_called_no_share_of_the_surface() -> None:
+    """A notch in a thick wall is thin in a place without any measured area."""
+    found = Walls(np.array([0.5, 2.0]), np.zeros((2, 3)), np.array([0.0, 1.0]), np.zeros((2, 2), dtype=np.int64))
+    message = wall_check(Part("red", np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)), found, process=FDM).message
+    assert "less than 0.01% of the surface is thinner" in message
+
+
 def test_without_a_process_the_wall_is_said_but_not_judged() -> None:
     unknown = wall(0.1, None)
     assert unknown.skipped

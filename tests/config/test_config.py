@@ -6,6 +6,7 @@ import pytest
 from pydantic import ValidationError
 
 from fabricate.config import Config, CubeConfig, PatternConfig, SolidConfig, TorusConfig
+from fabricate.config.solid_config import BaseConfig, OpeningsConfig
 
 
 def test_the_example_of_the_contract(read: Callable[..., Config]) -> None:
@@ -43,6 +44,8 @@ def test_a_config_cannot_be_edited() -> None:
         (SolidConfig(thickness=25.0), PatternConfig(), "solid.thickness"),
         (SolidConfig(thickness=1.0, clearance=4.0), PatternConfig(), "solid.clearance"),
         (SolidConfig(), PatternConfig(tile_size=50.1), "pattern.tile_size"),
+        (SolidConfig(openings=OpeningsConfig(diameter=50.1)), PatternConfig(), "solid.openings.diameter"),
+        (SolidConfig(base=BaseConfig(height=50.1)), PatternConfig(), "solid.base.height"),
     ],
 )
 def test_values_that_do_not_fit_together_are_refused(solid: SolidConfig, pattern: PatternConfig, key: str) -> None:
@@ -54,6 +57,8 @@ def test_values_that_do_not_fit_together_are_refused(solid: SolidConfig, pattern
 def test_values_just_inside_fit() -> None:
     assert Config(
         source=CubeConfig(size=50.0),
-        solid=SolidConfig(thickness=24.9, clearance=99.0),
+        solid=SolidConfig(
+            thickness=24.9, clearance=99.0, openings=OpeningsConfig(diameter=50.0), base=BaseConfig(height=50.0)
+        ),
         pattern=PatternConfig(tile_size=50.0),
     )

@@ -153,3 +153,13 @@ def test_a_band_s_copies_keep_to_either_side_of_its_middle(multitone: CutSurface
         width = np.linalg.norm(np.diff(multitone.points[multitone.curves[band - 1 :][:2]], axis=0)[0], axis=1)
         assert (before + after < width).all()
         assert CLEARANCE <= np.median(width - before - after) <= 1.5 * CLEARANCE
+
+
+@pytest.mark.parametrize("clearance", [0.0, 0.2])
+def test_joint_faces_are_all_that_is_neither_outside_nor_inside(multitone: CutSurface, clearance: float) -> None:
+    made = built(multitone, clearance=clearance)
+    for region, body in enumerate(made.bodies):
+        faces = {tuple(triangle) for triangle in np.sort(made.joint_faces(multitone.curves, region), axis=1).tolist()}
+        whole = {tuple(triangle) for triangle in np.sort(body, axis=1).tolist()}
+        assert faces < whole
+        assert len(whole) - len(faces) == 2 * (multitone.regions == region).sum()

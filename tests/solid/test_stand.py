@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from bar_at_corner import UP, bar_at_corner
 from crafted import Crafted, crafted
 
 from fabricate.errors import SolidError
@@ -11,9 +12,10 @@ from fabricate.mesh.crease import creased
 from fabricate.mesh.cube import cube
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Core
-from fabricate.solid.booleans import manifold_of
+from fabricate.solid.booleans import bar, manifold_of, part_of
 from fabricate.solid.room import roomy_places
-from fabricate.solid.stand import Stand, placed_stand, standing
+from fabricate.solid.sound_turn import is_sound
+from fabricate.solid.stand import Stand, placed_stand, stand_solid, standing
 from fabricate.triangles.crossing import crossing_triangles
 
 HEIGHT, WALL = 3.0, 0.8
@@ -47,7 +49,7 @@ def planned(body: Crafted, clearance: float, *, height: float = HEIGHT) -> Stand
 def test_the_part_stands_flat_on_one_plate_and_stays_one_solid(body: tuple[Crafted, float]) -> None:
     crafted_body, clearance = body
     stand = planned(crafted_body, clearance)
-    parts = [standing(part, stand, tolerance=0.05) for part in crafted_body.made.parts]
+    parts = [standing(part, stand, tolerance=0.05).part for part in crafted_body.made.parts]
     (own,) = (part for part in parts if part.name == stand.part)
     (before,) = (part for part in crafted_body.made.parts if part.name == stand.part)
     lowest = min(part.points[:, 2].min() for part in crafted_body.made.parts)
@@ -63,12 +65,24 @@ def test_the_stand_keeps_the_gap_from_the_other_part(body: tuple[Crafted, float]
     crafted_body, clearance = body
     stand = planned(crafted_body, clearance)
     own, other = (
-        manifold_of(standing(part, stand, tolerance=0.05))
+        manifold_of(standing(part, stand, tolerance=0.05).part)
         for part in sorted(crafted_body.made.parts, key=lambda part: part.name != stand.part)
     )
     assert (own ^ other).volume() == pytest.approx(0.0, abs=1e-6)
     if clearance > 0.0:
         assert own.min_gap(other, 2 * clearance) >= 0.95 * clearance
+
+
+def test_feet_go_up_into_their_own_part_alone(body: tuple[Crafted, float]) -> None:
+    """No foot's top stands out beside the part: nothing of the stand is left over the face that it goes into."""
+    crafted_body, clearance = body
+    stand = planned(crafted_body, clearance)
+    (own,) = (part for part in crafted_body.made.parts if part.name == stand.part)
+    solid = manifold_of(own)
+    for foot in stand.feet:
+        top = foot._replace(begin=foot.end - 0.01 * UP, end=foot.end)
+        disc = bar(top, tolerance=0.05)
+        assert (disc - solid).volume() < 1e-6 * disc.volume()
 
 
 def test_it_does_not_fall_over_when_tilted_by_ten_degrees(body: tuple[Crafted, float]) -> None:
@@ -84,14 +98,30 @@ def test_the_other_part_is_left_as_it_is(body: tuple[Crafted, float]) -> None:
     crafted_body, clearance = body
     stand = planned(crafted_body, clearance)
     (other,) = (part for part in crafted_body.made.parts if part.name != stand.part)
-    assert standing(other, stand, tolerance=0.05) is other
+    assert standing(other, stand, tolerance=0.05).part is other
+
+
+def test_a_stand_is_turned_until_the_part_stays_sound_in_its_file() -> None:
+    part, foot = bar_at_corner(radius=2.0, tolerance=0.05)
+    plate = foot._replace(end=foot.begin + 0.9 * UP, radius=5.0)
+    stand = Stand(part.name, 1.0, plate, (foot,))
+    straight = manifold_of(part) + stand_solid(stand, tolerance=0.05)
+    assert not is_sound(part_of("yellow", straight))
+    found = standing(part, stand, tolerance=0.05)
+    assert found.turn > 0.0
+    assert is_sound(found.part)
+    assert manifold_of(found.part).volume() == pytest.approx(straight.volume(), rel=1e-3)
 
 
 def test_a_stand_too_low_for_a_plate_is_refused_with_the_height_that_fits() -> None:
     ring = crafted(torus(around=8, across=4, tube=0.45), size=60, tile=10, clearance=0.5)
-    with pytest.raises(SolidError, match=r"solid.base.height of at least 1\.3 mm"):
+    with pytest.raises(SolidError, match=r"solid.base.height of at least 1\.31 mm"):
         planned(ring, 0.5, height=1.2)
-    assert planned(ring, 0.5, height=1.31)
+    stand = planned(ring, 0.5, height=1.31)
+    (own,) = (standing(part, stand, tolerance=0.05).part for part in ring.made.parts if part.name == stand.part)
+    heights = np.unique(own.points[:, 2])
+    top = heights[np.abs(heights - stand.plate.end[2]).argmin()]
+    assert top - heights[0] >= WALL  # of the plate, as its file holds it
 
 
 def test_a_part_without_room_for_a_foot_is_refused() -> None:
