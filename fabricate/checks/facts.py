@@ -14,7 +14,7 @@ Xyz: TypeAlias = tuple[float, float, float]
 """A point, or three lengths along the axes, mm."""
 
 Verdict: TypeAlias = Literal["captive", "separable", "fused"]
-"""Whether two rigid parts are caught in each other, come apart, or touch and are one."""
+"""Whether two rigid parts are caught in each other, come apart, or share faces and are one."""
 
 
 @dataclass(frozen=True)

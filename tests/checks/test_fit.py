@@ -95,11 +95,21 @@ def test_without_a_clearance_the_gap_is_said_but_not_judged() -> None:
     assert "0.123 mm" in unknown.message
 
 
-def test_parts_that_touch_on_purpose_are_not_judged_by_their_gap() -> None:
-    touching = gap_check("fit.gap", box("red"), box("green"), Gap(0.0, None), clearance=0.0)
-    assert touching.skipped
-    assert not touching.ok
-    assert "on purpose" in touching.message
+@pytest.mark.parametrize(("width", "shared", "ok"), [(0.0, 2.5, True), (0.0, 0.0, False), (0.3, 0.0, False)])
+def test_parts_that_are_to_be_one_must_share_faces(width: float, shared: float, ok: bool) -> None:
+    at = (1.0, 2.0, 3.0) if width else None
+    touching = gap_check("fit.gap", box("red"), box("green"), Gap(width, at), clearance=0.0, shared=shared)
+    assert touching.ok is ok
+    assert not touching.skipped
+    assert ("0.3 mm, at (1, 2, 3)" in touching.message) == (width > 0.0)
+
+
+def test_parts_that_overlap_are_said_to() -> None:
+    over = Gap(0.0, (1.0, 2.0, 3.0), queried=0.1)
+    found = gap_check("fit.gap", box("red"), box("green"), over, clearance=0.3, common=0.5)
+    assert found.failed
+    assert "overlap: 0.5 mm3" in found.message
+    assert found.where.tolist() == [[1, 2, 3]]
 
 
 def whole(parts: tuple[Part, ...], space: Part, shell: Part) -> Check:
