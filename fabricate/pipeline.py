@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from fabricate.arrays import Floats
 from fabricate.checks.facts import WireFacts
 from fabricate.checks.finished import finish_facts, with_finish
 from fabricate.checks.joint_profile import joint_checks, joint_facts
@@ -104,7 +105,9 @@ def _sculpture(
     bent = _wire(surface, config)
     with complete_folder(out / name) as folder:
         watch.begin("files")
-        paths = write_parts(folder, ready.parts, list(surface.points[surface.curves]), name=name)
+        paths = write_parts(
+            folder, ready.parts, list(surface.points[surface.curves]), name=name, middles=_middles(surface, made)
+        )
         _write_curve_files(folder, surface, bent, config, name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
@@ -114,6 +117,7 @@ def _sculpture(
             certificate,
             clearance=solid.clearance,
             core=solid.core,
+            tolerance=fitting.tolerance,
             process=process,
             shop=config.process.shop,
         )
@@ -180,6 +184,12 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
         checks=judged.checks,
         wire=thread,
     )
+
+
+def _middles(surface: CutSurface, made: Assembly) -> list[Floats]:
+    """Return places on the mid-line of the joint under each point of each curve, (r, c, 3) mm for each curve."""
+    length = surface.curves.shape[1]
+    return [made.middles(curve, region).reshape(-1, length, 3) for region, curve in enumerate(surface.curves)]
 
 
 def _wire(surface: CutSurface, config: Config) -> Wire | None:

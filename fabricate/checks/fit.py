@@ -10,7 +10,7 @@ from manifold3d import Manifold
 from fabricate.arrays import Floats
 from fabricate.checks.check import MOST_PLACES, Check
 from fabricate.checks.contacts import TOUCHING
-from fabricate.checks.facts import Gap
+from fabricate.checks.facts import Gap, Spaces
 from fabricate.checks.geometry import signed_volume
 from fabricate.checks.wording import place
 from fabricate.solid.part import Part
@@ -23,6 +23,9 @@ GAP_SHARE = 0.95
 
 WIDEST = 1.3
 """Largest gap along the joint's mid-line that is accepted, in clearances: beyond, parts rattle and seams show."""
+
+CHORDS = 4.0
+"""An excess of up to so many chord errors is explained by them: the worst edges are off by that much."""
 
 QUERIED_SHARE = 1.02
 """Distance queries confirm a gap when they find places that are not farther apart by more than this factor."""
@@ -114,8 +117,13 @@ def _touching_check(code: str, names: str, gap: Gap, where: Floats, *, shared: f
     return Check(code, ok=True, message=f"{wanted}, and they share {shared:.4g} mm2")
 
 
-def widest_gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: float | None) -> Check:
-    """Check that the gap is nowhere far too wide along the joint's mid-line; points at the widest place."""
+def widest_gap_check(
+    code: str, first: Part, second: Part, gap: Gap, *, clearance: float | None, tolerance: float | None = None
+) -> Check:
+    """Check that the gap is nowhere far too wide along the joint's mid-line; points at the widest place.
+
+    What to do about it depends on the surface's chord error, `tolerance`, mm, if it is known.
+    """
     names = f"{first.name} and {second.name}"
     if not clearance or gap.max is None or gap.max_at is None:
         missing = "the joint's mid-line is" if clearance else "a clearance is"
@@ -124,7 +132,7 @@ def widest_gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearanc
             message = f"{names} are to touch: the clearance is 0, so there is no gap to become wide"
         return Check(code, ok=False, skipped=True, message=message)
     ok = not gap.max > WIDEST * clearance
-    spot = "" if ok else f", at {place(gap.max_at)}"
+    spot = "" if ok else f", at {place(gap.max_at)}; {_narrowing(gap.max - clearance, tolerance)}"
     return Check(
         code,
         ok=ok,
@@ -134,21 +142,29 @@ def widest_gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearanc
     )
 
 
-def whole_check(code: str, parts: Sequence[Part], gap: Part, shell: Part) -> Check:
+def _narrowing(excess: float, tolerance: float | None) -> str:
+    """Say how to make a gap narrower that is by `excess`, mm, too wide."""
+    if tolerance is not None and excess <= CHORDS * tolerance:
+        return (
+            f"ask for a solid.tolerance smaller than {tolerance:.4g} mm, by which the triangles may be off, "
+            "or for a larger pattern.tile_size"
+        )
+    return "the surface bends sharply there for its tiles: ask for a larger pattern.tile_size"
+
+
+def whole_check(code: str, parts: Sequence[Part], spaces: Spaces) -> Check:
     """Check that the volumes of the parts and of the gap between them add up to that of the uncut shell.
 
     Parameters
     ----------
     code : str
     parts : sequence of Part
-    gap : Part
-        The space between the parts, a closed mesh; empty for parts that touch.
-    shell : Part
-        The whole, uncut.
+    spaces : Spaces
+        Volumes of the space between the parts, and of the whole, uncut.
     """
     names = ", ".join(part.name for part in parts)
-    total = sum(signed_volume(part) for part in (*parts, gap))
-    whole = signed_volume(shell)
+    total = spaces.gap + sum(map(signed_volume, parts))
+    whole = spaces.shell
     return Check(
         code,
         ok=abs(total - whole) <= VOLUME_SHARE * abs(whole),

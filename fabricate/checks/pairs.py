@@ -81,6 +81,7 @@ def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expect
         play_mm=measured[0].play_mm if len(parts) == 2 and measured else None,
         witness=measured[0].witness if len(parts) == 2 and measured else None,
         pairs=MappingProxyType({name: pair.facts for name, pair in pairs.items()}),
+        spaces_mm3=expectations.spaces,
     )
     joined = _joined(parts, list(pairs.values()), expectations.clearance)
     return Fit(facts, (*checks, *joined, _whole(parts, expectations)), _joints(pairs.values()))
@@ -111,7 +112,11 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
             )
         )
     if neighbours:
-        checks.append(widest_gap_check(f"{prefix}.gap_max", first.part, second.part, gap, clearance=clearance))
+        checks.append(
+            widest_gap_check(
+                f"{prefix}.gap_max", first.part, second.part, gap, clearance=clearance, tolerance=expectations.tolerance
+            )
+        )
         checks.append(_moving(f"{prefix}.mobility", first.part, second.part, found, expectations))
     facts = PairFacts(
         gap_mm=gap,
@@ -213,4 +218,4 @@ def _whole(parts: Sequence[Part], expectations: Expectations) -> Check:
     if expectations.spaces is None:
         message = "volumes were not added up, because the uncut shell is not known"
         return Check(code, ok=False, skipped=True, message=message)
-    return whole_check(code, parts, expectations.spaces.gap, expectations.spaces.shell)
+    return whole_check(code, parts, expectations.spaces)

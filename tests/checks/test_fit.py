@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
 
 from fabricate.checks.check import Check
-from fabricate.checks.facts import Gap
-from fabricate.checks.fit import gap_check, overlap_check, whole_check
+from fabricate.checks.facts import Gap, Spaces
+from fabricate.checks.fit import gap_check, overlap_check, whole_check, widest_gap_check
 from fabricate.checks.geometry import as_manifold, signed_volume
 from fabricate.solid.part import Part
 
@@ -113,7 +115,21 @@ def test_parts_that_overlap_are_said_to() -> None:
 
 
 def whole(parts: tuple[Part, ...], space: Part, shell: Part) -> Check:
-    return whole_check("fit.whole", parts, space, shell)
+    return whole_check("fit.whole", parts, Spaces(signed_volume(space), signed_volume(shell)))
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "advice"),
+    [(0.05, "solid.tolerance smaller than 0.05 mm"), (0.005, "larger pattern.tile_size"), (None, "larger")],
+)
+def test_a_gap_too_wide_says_what_to_do(tolerance: float | None, advice: str) -> None:
+    wide = Gap(0.3, None, max=0.45, max_at=(1.0, 2.0, 3.0))
+    found = widest_gap_check("fit.gap_max", box("red"), box("green"), wide, clearance=0.3, tolerance=tolerance)
+    assert found.failed
+    assert f"ask for a {advice}" in found.message
+    assert ("solid.tolerance" in found.message) == (tolerance == 0.05)
+    good = replace(wide, max=0.38)
+    assert "ask" not in widest_gap_check("fit.gap_max", box("red"), box("green"), good, clearance=0.3).message
 
 
 def hollow(name: str, outer: float, inner: float) -> Part:
