@@ -49,7 +49,9 @@ def test_coarse_parts_that_finer_ones_are_better_than_are_refused() -> None:
     asked = config("[process]\nshop = { polygons = 15000 }")
     coarse = parts_of(asked)
     assert coarse.largest <= 15000
-    with pytest.raises(SolidError, match=r"polygons accepts 15000 .* fail fit.gap_max: the gap is too wide; ") as caught:
+    with pytest.raises(
+        SolidError, match=r"polygons accepts 15000 .* fail fit.gap_max: the gap is too wide; "
+    ) as caught:
         check_fine_enough(coarse, asked, (TOO_WIDE,))
     assert "\n" not in str(caught.value)
     check_fine_enough(coarse, asked, ())

@@ -150,7 +150,7 @@ def recorded_checks(recorded: Recorded, config: Config, *, clearance: float) -> 
 def as_recorded(checks: Iterable[Check]) -> tuple[Check, ...]:
     """Return checks, those with the sentence that says so which rest on what the report records."""
     return tuple(
-        replace(check, message=f"{check.message}; {AS_RECORDED[check.code]} are as report.json records them")
+        replace(check, message=f"{check.message} ({AS_RECORDED[check.code]} as recorded in report.json)")
         if check.code in AS_RECORDED and not check.skipped
         else check
         for check in checks

@@ -110,7 +110,7 @@ def test_the_verdict_is_that_of_the_run(name: str, request: pytest.FixtureReques
 def test_what_the_report_records_is_said_to_be_so(banded: Path) -> None:
     found = rechecked([banded], clearance=None)
     for code in ("pattern.neck", "pattern.band", "fit.whole"):
-        assert named(found, code).message.endswith("as report.json records them"), code
+        assert named(found, code).message.endswith("as recorded in report.json)"), code
     assert "recorded" not in named(found, "fit.joined").message
 
 

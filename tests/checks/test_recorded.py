@@ -69,7 +69,7 @@ def test_only_checks_that_ran_on_what_is_recorded_say_so() -> None:
     ran, measured = Check("pattern.neck", ok=True, message="good"), Check("fit.gap", ok=True, message="good")
     not_run = Check("fit.whole", ok=False, skipped=True, message="not known")
     found = [check.message for check in as_recorded([ran, measured, not_run])]
-    assert found == ["good; widths are as report.json records them", "good", "not known"]
+    assert found == ["good (widths as recorded in report.json)", "good", "not known"]
 
 
 def test_places_on_the_mid_line_come_back_by_curve(tmp_path: Path) -> None:
