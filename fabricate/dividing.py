@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-from fabricate.checks.shop import most_polygons
+from fabricate.checks.shop import most_polygons, polygons_wording
 from fabricate.config import Config, FileConfig
 from fabricate.design.area_share import shared_cut
 from fabricate.design.designed import Design, designed, grown
@@ -69,24 +70,41 @@ class Divided(NamedTuple):
 
 def divided(body: Prepared, config: Config, field: FieldWish | None, *, watch: Stopwatch, store: Store) -> Divided:
     """Divide one body as a config asks: tiles, curve and cut."""
-    solid = config.solid
     watch.begin("quads")
     wish, limit = tile_wish(config, body)
     whole = sized_surface(body.mesh, wish)
-    check_thick(whole.points, whole.triangles, clearance=solid.clearance)
+    check_thick(whole.points, whole.triangles, clearance=config.solid.clearance)
     curve = curve_wish(config, field, genus=genus(body.mesh), neck=wish.neck, depth=wish.depth)
     own = in_place(curve, body, wish)
     tiling = chosen_tiling(body.mesh, wish, grow=partial(grown, wish=own), progress=watch.tell, store=store)
     watch.begin("duotone")
     design = designed(tiling.quads, in_place(curve, body, wish, tiling), progress=watch.tell)
     watch.begin("cut")
-    fitting = affordable(
-        partial(_surface, design.duotone, tiling, config),
-        tolerance=solid.tolerance,
-        core=solid.core,
-        budget=None if config.process.shop is None else most_polygons(config.process.shop),
-    )
+    make = partial(_surface, design.duotone, tiling, config)
+    fitting = _fitting(make, config, tolerance=config.solid.tolerance, budget=polygon_budget(config))
     return Divided(tiling, limit, design, fitting)
+
+
+def divided_again(found: Divided, config: Config, *, tolerance: float, budget: int | None) -> Divided:
+    """Cut a body again by the same curve: by another tolerance, mm, or for parts with fewer triangles."""
+    make = partial(_surface, found.design.duotone, found.tiling, config)
+    return found._replace(fitting=_fitting(make, config, tolerance=tolerance, budget=budget))
+
+
+def polygon_budget(config: Config) -> int | None:
+    """Return how many triangles each part may have; None without a limit."""
+    return None if config.process.shop is None else most_polygons(config.process.shop)
+
+
+def _fitting(
+    make: Callable[[float], CutSurface], config: Config, *, tolerance: float, budget: int | None
+) -> Affordable:
+    """Return the surface that keeps a budget; where that is less than the shop's, the finish takes the rest."""
+    shop, most = config.process.shop, polygon_budget(config)
+    limit = "" if shop is None else polygons_wording(shop)
+    if budget is not None and most is not None and budget < most:
+        limit += f", of which the stand and openings take {most - budget}"
+    return affordable(make, tolerance=tolerance, core=config.solid.core, budget=budget, limit=limit)
 
 
 def _surface(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float) -> CutSurface:

@@ -10,10 +10,10 @@ from fabricate.checks.judged_coupon import judged_coupon
 from fabricate.config import Config, config_sha256, moved_config, resolved_toml
 from fabricate.design.field import FieldWish
 from fabricate.dividing import divided, read_bodies
+from fabricate.making import made_solids
 from fabricate.output.coupon_files import write_coupon
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
-from fabricate.pipeline import made_solids
 from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES

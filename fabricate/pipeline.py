@@ -6,13 +6,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from fabricate.arrays import Floats
 from fabricate.checks.draining import draining_checks, draining_notes
 from fabricate.checks.facts import WireFacts
-from fabricate.checks.finished import finish_facts, with_finish
+from fabricate.checks.finished import finish_facts
 from fabricate.checks.joint_profile import joint_checks, joint_facts
 from fabricate.checks.judge import judged_parts, read_part
 from fabricate.checks.judged_wire import judged_wire
-from fabricate.checks.measured import chords, expectations, mesh_facts, pattern_facts
+from fabricate.checks.measured import chords, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Check, Report, report_json
 from fabricate.checks.share import share_checks
@@ -25,6 +26,7 @@ from fabricate.config import (
 from fabricate.design.field import FieldWish
 from fabricate.dividing import divided, read_bodies
 from fabricate.formats.reading import read_mesh
+from fabricate.making import check_fine_enough, made, wanted
 from fabricate.output.curve_svg import write_curve_svg
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
@@ -37,14 +39,11 @@ from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES, Process
 from fabricate.solid.assembly import Assembly
-from fabricate.solid.finish import finished
-from fabricate.solid.solids import solids
 from fabricate.solid.wire import Wire, wire
 from fabricate.stopwatch import Stopwatch
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.cut_certificate import cut_certificate
 from fabricate.versions import program_versions
-from fabricate.wishes import finish_wish, joint_wish, wall_thickness
 
 
 def run(
@@ -73,17 +72,6 @@ def run(
     )
 
 
-def made_solids(surface: CutSurface, config: Config, *, clearance: float) -> Assembly:
-    """Make the parts of a config from its cut surface, with walls `clearance` mm apart."""
-    return solids(
-        surface,
-        thickness=wall_thickness(surface, config),
-        clearance=clearance,
-        core=config.solid.core,
-        joint=joint_wish(config),
-    )
-
-
 def _sculpture(
     body: Prepared,
     config: Config,
@@ -96,31 +84,25 @@ def _sculpture(
 ) -> Report:
     """Make the parts of one body."""
     solid, process = config.solid, PROCESSES[config.process.name]
-    tiling, limit, design, fitting = divided(body, config, field, watch=watch, store=store)
+    found = divided(body, config, field, watch=watch, store=store)
+    watch.begin("solids")
+    parts = made(found, config)
+    (tiling, limit, design, fitting), own, ready = parts
     duotone, surface, coarser = design.duotone, fitting.surface, fitting.tolerance > solid.tolerance
     certificate = cut_certificate(surface)
-    watch.begin("solids")
-    made = made_solids(surface, config, clearance=solid.clearance)
-    ready = finished(surface, made, finish_wish(config))
     bent = _wire(surface, config)
     with complete_folder(out / name) as folder:
         watch.begin("files")
-        paths = write_parts(folder, ready.parts, list(surface.points[surface.curves]), name=name)
+        paths = write_parts(
+            folder, ready.parts, list(surface.points[surface.curves]), name=name, middles=_middles(surface, own)
+        )
         _write_curve_files(folder, surface, bent, config, name=name)
         write_whole(folder / "config.toml", resolved_toml(moved_config(config, out / name)).encode())
         watch.begin("checks")
-        wanted = expectations(
-            surface,
-            made,
-            certificate,
-            clearance=solid.clearance,
-            core=solid.core,
-            process=process,
-            shop=config.process.shop,
-        )
-        judged = judged_parts([read_part(path) for path in paths], with_finish(wanted, ready))
+        judged = judged_parts([read_part(path) for path in paths], wanted(parts, config))
+        check_fine_enough(parts, config, judged.checks)
         pattern = pattern_facts(design, certificate, surface)
-        joint, finish = joint_facts(surface, made, solid.joint), finish_facts(ready)
+        joint, finish = joint_facts(surface, own, solid.joint), finish_facts(ready)
         thread, alone = _judged_wire(folder, bent, process)
         watch.begin("pictures")
         write_pictures(folder, ready.parts, marks=witness_marks(ready.parts, judged.fit.pairs if judged.fit else {}))
@@ -182,6 +164,12 @@ def check(paths: Sequence[Path], *, clearance: float | None) -> Report:
         checks=judged.checks,
         wire=thread,
     )
+
+
+def _middles(surface: CutSurface, made: Assembly) -> list[Floats]:
+    """Return places on the mid-line of the joint under each point of each curve, (r, c, 3) mm for each curve."""
+    length = surface.curves.shape[1]
+    return [made.middles(curve, region).reshape(-1, length, 3) for region, curve in enumerate(surface.curves)]
 
 
 def _wire(surface: CutSurface, config: Config) -> Wire | None:

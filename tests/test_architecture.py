@@ -27,6 +27,7 @@ ROWS = [
     {"picture"},
     {"output"},
     {"wishes", "dividing"},
+    {"making"},
     {"pipeline"},
     {"fit_coupon"},
     {"batch"},

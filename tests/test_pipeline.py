@@ -128,7 +128,7 @@ def test_the_report_has_the_keys_of_the_contract(report: dict[str, Any]) -> None
     assert report["joint"]["kind"] == "straight"
     assert report["joint"]["ridge_mm"] is None
     assert set(report["fit"]) == {
-        *("clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm", "witness", "pairs"),
+        *("clearance_mm", "gap_mm", "overlap_mm3", "verdict", "play_mm", "witness", "pairs", "spaces_mm3"),
     }
     assert set(report["fit"]["gap_mm"]) == {"min", "at", "queried", "max", "max_at"}
     assert set(report["fit"]["play_mm"]) == {"x", "y", "z", "rx", "ry", "rz"}

@@ -23,6 +23,9 @@ FACING = 0.8
 MOST_SAMPLES = 20_000
 """Contacts are looked for at no more places of each part."""
 
+TOUCHING = 1e-4
+"""Faces that are no farther apart than this, mm, are shared; float32 coordinates of large parts are as coarse."""
+
 SAMPLES = np.array([[4, 4, 4], [8, 2, 2], [2, 8, 2], [2, 2, 8]]) / 12
 """Barycentric coordinates of the places on each triangle."""
 
@@ -68,6 +71,26 @@ def facing_triangles(own: SearchTree, other: SearchTree, distances: Floats, *, c
         middles = own.points[own.triangles[near]].mean(axis=1)
         facing[near] = _face_to_face(own, other, middles, near, clearance)[0]
     return facing
+
+
+def shared_area(spacing: Spacing) -> float:
+    """Return the area of the first part's surface that lies on that of the second, mm2, from places on its triangles.
+
+    Parts that overlap, or touch at points and edges only, share none.
+    """
+    own, other = spacing.first, spacing.second
+    corners = own.points[own.triangles]
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    near = np.flatnonzero((spacing.to_second[own.triangles] <= longest[:, None] + TOUCHING).any(axis=1))
+    if not len(near):
+        return 0.0
+    points, triangle = _samples(own, near)
+    found = other.nearest(points)
+    opposite = np.einsum("ij,ij->i", _normals(own, triangle), _normals(other, found.triangle)) <= -FACING
+    shared = (found.distance <= TOUCHING) & opposite
+    area = 0.5 * np.linalg.norm(area_vectors(own.points, own.triangles[triangle]), axis=1)
+    every = len(SAMPLES) * len(near) / len(points)
+    return float(area[shared].sum() * every / len(SAMPLES))
 
 
 def joint_pivot(met: Contacts, centroid: Floats) -> Floats:

@@ -8,17 +8,9 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from fabricate.arrays import Floats
-from fabricate.checks.facts import Verdict, Xyz
+from fabricate.checks.facts import Spaces, Verdict, Xyz
 from fabricate.config import ShopConfig
 from fabricate.process import Process
-from fabricate.solid.part import Part
-
-
-class Spaces(NamedTuple):
-    """The gap between the parts, empty where they touch, and the whole shell, uncut: closed meshes."""
-
-    gap: Part
-    shell: Part
 
 
 class Neck(NamedTuple):
@@ -63,6 +55,8 @@ class Expectations:
         What the parts leave free, and what they add up to with it.
     middles : mapping of str to (k, 3) float
         Places on the mid-line of the joint between two parts, by their names, such as "yellow-blue"; mm.
+    tolerance : float or None
+        Chord error of the surface, mm.
     verdict : {"captive", "separable", "fused"} or None
         Whether neighbouring parts come apart. Left at None it is "captive", or "fused" where the clearance is 0.
     """
@@ -75,6 +69,7 @@ class Expectations:
     band: Band | None = None
     spaces: Spaces | None = None
     middles: Mapping[str, Floats] = field(default_factory=dict)
+    tolerance: float | None = None
     verdict: Verdict | None = None
 
     def __post_init__(self) -> None:

@@ -14,7 +14,7 @@ Xyz: TypeAlias = tuple[float, float, float]
 """A point, or three lengths along the axes, mm."""
 
 Verdict: TypeAlias = Literal["captive", "separable", "fused"]
-"""Whether two rigid parts are caught in each other, come apart, or touch and are one."""
+"""Whether two rigid parts are caught in each other, come apart, or share faces and are one."""
 
 
 @dataclass(frozen=True)
@@ -306,6 +306,14 @@ class FinishFacts:
 
 
 @dataclass(frozen=True)
+class Spaces:
+    """Volumes of the gap between the parts, 0 where they touch, and of the whole shell, uncut, mm3."""
+
+    gap: float
+    shell: float
+
+
+@dataclass(frozen=True)
 class JointFacts:
     """How the facing walls run from the outer surface to the inner one, measured on the finished walls.
 
@@ -347,6 +355,8 @@ class FitFacts:
         What proves that two parts are captive; of more than two, each pair has its own.
     pairs : mapping of str to PairFacts
         The same of each pair by the parts' names, such as "yellow-blue".
+    spaces_mm3 : Spaces or None
+        As they were designed: what the parts leave free, and what they add up to with it.
     """
 
     clearance_mm: float | None
@@ -356,3 +366,4 @@ class FitFacts:
     play_mm: Play | None
     witness: Witness | None
     pairs: Mapping[str, PairFacts]
+    spaces_mm3: Spaces | None = None

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from fabricate.arrays import Floats
-from fabricate.checks.expectations import Expectations, Spaces
-from fabricate.checks.facts import BaseFacts, FinishFacts, OpeningFacts, Xyz
+from fabricate.checks.expectations import Expectations
+from fabricate.checks.facts import BaseFacts, FinishFacts, OpeningFacts, Spaces, Xyz
+from fabricate.checks.geometry import signed_volume
 from fabricate.solid.finish import Finished
 
 
@@ -37,7 +38,7 @@ def with_handles(genus: Mapping[str, int], finish: FinishFacts) -> dict[str, int
 def with_finish(wanted: Expectations, finished: Finished) -> Expectations:
     """Return what is expected of the parts with their openings and their stand."""
     genus = with_handles(wanted.genus, finish_facts(finished))
-    return replace(wanted, genus=genus, spaces=Spaces(*finished.spaces))
+    return replace(wanted, genus=genus, spaces=Spaces(*map(signed_volume, finished.spaces)))
 
 
 def _xyz(point: Floats) -> Xyz:

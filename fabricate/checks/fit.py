@@ -9,7 +9,8 @@ from manifold3d import Manifold
 
 from fabricate.arrays import Floats
 from fabricate.checks.check import MOST_PLACES, Check
-from fabricate.checks.facts import Gap
+from fabricate.checks.contacts import TOUCHING
+from fabricate.checks.facts import Gap, Spaces
 from fabricate.checks.geometry import signed_volume
 from fabricate.checks.wording import place
 from fabricate.solid.part import Part
@@ -22,6 +23,9 @@ GAP_SHARE = 0.95
 
 WIDEST = 1.3
 """Largest gap along the joint's mid-line that is accepted, in clearances: beyond, parts rattle and seams show."""
+
+CHORDS = 4.0
+"""An excess of up to so many chord errors is explained by them: the worst edges are off by that much."""
 
 QUERIED_SHARE = 1.02
 """Distance queries confirm a gap when they find places that are not farther apart by more than this factor."""
@@ -53,10 +57,25 @@ def overlap_check(code: str, first: Part, second: Part, common: Manifold, *, sma
     )
 
 
-def gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: float | None) -> Check:
+def gap_check(
+    code: str, first: Part, second: Part, gap: Gap, *, clearance: float | None, shared: float = 0.0, common: float = 0.0
+) -> Check:
     """Check that two parts keep at least 95 % of the clearance; points at the smallest gap.
 
-    Skipped when no clearance is known, and when it is 0, because the parts touch on purpose then.
+    With a clearance of 0 they must touch and share faces. Skipped when no clearance is known.
+
+    Parameters
+    ----------
+    code : str
+    first, second : Part
+        For their names.
+    gap : Gap
+    clearance : float or None
+        As it was asked for, mm.
+    shared : float
+        Area of the faces that they share, mm2.
+    common : float
+        Volume that they have in common, mm3.
     """
     names = f"{first.name} and {second.name}"
     where = np.array([gap.at] if gap.at is not None else np.zeros((0, 3)))
@@ -64,9 +83,10 @@ def gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: floa
         message = f"the smallest gap between {names} is {gap.min:.4g} mm; no clearance was asked for"
         return Check(code, ok=False, skipped=True, message=message, where=where)
     if clearance == 0.0:
-        touch = "touch" if gap.min == 0.0 else "may touch"
-        message = f"{names} {touch} on purpose: the clearance is 0, so only their overlap counts"
-        return Check(code, ok=False, skipped=True, message=message)
+        return _touching_check(code, names, gap, where, shared=shared)
+    if gap.min == 0.0 and common > 0.0:
+        message = f"{names} must be {clearance:.4g} mm apart, and they overlap: {common:.6g} mm3 lie in both"
+        return Check(code, ok=False, message=message, where=where)
     if gap.queried is not None and gap.queried > QUERIED_SHARE * gap.min:
         message = (
             f"Manifold finds a gap of {gap.min:.4g} mm between {names}, which distance queries could not confirm: "
@@ -84,17 +104,35 @@ def gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: floa
     )
 
 
-def widest_gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearance: float | None) -> Check:
-    """Check that the gap is nowhere far too wide along the joint's mid-line; points at the widest place."""
+def _touching_check(code: str, names: str, gap: Gap, where: Floats, *, shared: float) -> Check:
+    """Check that parts that are to be one share faces, of an area in mm2."""
+    wanted = f"{names} must share faces, as the clearance is 0"
+    if gap.min > TOUCHING:
+        spot = "" if gap.at is None else f", at {place(gap.at)}"
+        message = f"{wanted}, and nowhere are they nearer to each other than {gap.min:.4g} mm{spot}"
+        return Check(code, ok=False, message=message, where=where)
+    if shared == 0.0:
+        message = f"{wanted}, and they share none: they overlap, or touch at points or edges only"
+        return Check(code, ok=False, message=message, where=where)
+    return Check(code, ok=True, message=f"{wanted}, and they share {shared:.4g} mm2")
+
+
+def widest_gap_check(
+    code: str, first: Part, second: Part, gap: Gap, *, clearance: float | None, tolerance: float | None = None
+) -> Check:
+    """Check that the gap is nowhere far too wide along the joint's mid-line; points at the widest place.
+
+    What to do about it depends on the surface's chord error, `tolerance`, mm, if it is known.
+    """
     names = f"{first.name} and {second.name}"
     if not clearance or gap.max is None or gap.max_at is None:
         missing = "the joint's mid-line is" if clearance else "a clearance is"
         message = f"how wide the gap between {names} becomes was not judged, because {missing} not known"
         if clearance == 0.0:
-            message = f"{names} touch on purpose: the clearance is 0, so there is no gap to become wide"
+            message = f"{names} are to touch: the clearance is 0, so there is no gap to become wide"
         return Check(code, ok=False, skipped=True, message=message)
     ok = not gap.max > WIDEST * clearance
-    spot = "" if ok else f", at {place(gap.max_at)}"
+    spot = "" if ok else f", at {place(gap.max_at)}; {_narrowing(gap.max - clearance, tolerance)}"
     return Check(
         code,
         ok=ok,
@@ -104,21 +142,29 @@ def widest_gap_check(code: str, first: Part, second: Part, gap: Gap, *, clearanc
     )
 
 
-def whole_check(code: str, parts: Sequence[Part], gap: Part, shell: Part) -> Check:
+def _narrowing(excess: float, tolerance: float | None) -> str:
+    """Say how to make a gap narrower that is by `excess`, mm, too wide."""
+    if tolerance is not None and excess <= CHORDS * tolerance:
+        return (
+            f"ask for a solid.tolerance smaller than {tolerance:.4g} mm, by which the triangles may be off, "
+            "or for a larger pattern.tile_size"
+        )
+    return "the surface bends sharply there for its tiles: ask for a larger pattern.tile_size"
+
+
+def whole_check(code: str, parts: Sequence[Part], spaces: Spaces) -> Check:
     """Check that the volumes of the parts and of the gap between them add up to that of the uncut shell.
 
     Parameters
     ----------
     code : str
     parts : sequence of Part
-    gap : Part
-        The space between the parts, a closed mesh; empty for parts that touch.
-    shell : Part
-        The whole, uncut.
+    spaces : Spaces
+        Volumes of the space between the parts, and of the whole, uncut.
     """
     names = ", ".join(part.name for part in parts)
-    total = sum(signed_volume(part) for part in (*parts, gap))
-    whole = signed_volume(shell)
+    total = spaces.gap + sum(map(signed_volume, parts))
+    whole = spaces.shell
     return Check(
         code,
         ok=abs(total - whole) <= VOLUME_SHARE * abs(whole),

@@ -14,7 +14,8 @@ The codes of all checks, which other programs may rely on; PART stands for the n
     PART.wall                its thinnest wall is thick enough for the process
     PART.neck                its narrowest neck, between two walls that face other parts, is wide enough too
     FIT.overlap              two parts have no volume in common
-    FIT.gap                  the smallest gap between them is at least 95 % of the clearance
+    FIT.gap                  the smallest gap between them is at least 95 % of the clearance; with a clearance of 0
+                             they share faces, if they face each other
     FIT.gap_max              along the joint's mid-line it is at most 1.3 times the clearance,
     FIT.mobility             and they are captive, separable or fused, as they should be: of more than two parts,
                              these two are judged of those that face each other
@@ -28,7 +29,8 @@ The codes of all checks, which other programs may rely on; PART stands for the n
     shop.box                 the bounding box
     shop.wall.PART           and the thinnest wall of each part
 
-FIT is "fit" for two parts, and "fit.FIRST-SECOND" with their names for each pair of more. A single part has
+FIT is "fit" for two parts, and "fit.FIRST-SECOND" with their names for each pair of more, which add `fit.joined`: that
+all are joined by neighbours. A single part has
 no fit.* checks but `fit.process_gap`, only a pattern that is known to have bands has `pattern.band`, and there are
 shop.* checks only of the limits that a shop has. What is not known or could not be measured is skipped, not left out.
 A run that was asked for an area share adds `pattern.area_share` (see `checks.share`), one for openings

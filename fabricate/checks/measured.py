@@ -9,8 +9,9 @@ from types import MappingProxyType
 import numpy as np
 
 from fabricate.arrays import Floats
-from fabricate.checks.expectations import Band, Expectations, Neck, Spaces
-from fabricate.checks.facts import Chords, Distance, MeshFacts, PatternFacts, Spread, Xyz
+from fabricate.checks.expectations import Band, Expectations, Neck
+from fabricate.checks.facts import Chords, Distance, MeshFacts, PatternFacts, Spaces, Spread, Xyz
+from fabricate.checks.geometry import signed_volume
 from fabricate.config import ShopConfig
 from fabricate.design.area_share import area_shares
 from fabricate.design.designed import Design
@@ -108,11 +109,12 @@ def expectations(
     *,
     clearance: float,
     core: Core,
+    tolerance: float | None = None,
     process: Process | None = None,
     shop: ShopConfig | None = None,
 ) -> Expectations:
     """Return what the parts of these solids should be, when they are read back from their files."""
-    gap, shell = solids.spaces
+    gap, shell = map(signed_volume, solids.spaces)
     return Expectations(
         clearance=clearance,
         genus=expected_genus({name: region.handles for name, region in _named(certificate)}, core=core),
@@ -121,6 +123,7 @@ def expectations(
         neck=Neck(*_narrowest(tile_necks(surface))),
         band=_narrowest_band(surface),
         spaces=Spaces(gap, shell),
+        tolerance=tolerance,
         middles={
             f"{first}-{second}": solids.middles(curve, region)
             for region, (curve, (first, second)) in enumerate(

@@ -14,12 +14,13 @@ from scipy.sparse.csgraph import connected_components
 
 from fabricate.arrays import Mask
 from fabricate.checks.check import Check
-from fabricate.checks.contacts import REACH, facing_triangles
+from fabricate.checks.contacts import REACH, TOUCHING, facing_triangles, shared_area
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Gap, PairFacts, Verdict
-from fabricate.checks.fit import gap_check, overlap_check, whole_check, widest_gap_check
+from fabricate.checks.fit import OVERLAP_SHARE, gap_check, overlap_check, whole_check, widest_gap_check
 from fabricate.checks.gap import Spacing, smallest_gap, widest_gap
 from fabricate.checks.holding import Holding, holding, holding_check
+from fabricate.checks.wording import counted
 from fabricate.solid.part import Part
 from fabricate.triangles.search_tree import SearchTree
 
@@ -52,6 +53,7 @@ class _Pair:
     facts: PairFacts
     checks: tuple[Check, ...]
     joints: tuple[tuple[str, Mask], ...] = ()
+    neighbours: bool = False
 
     @property
     def measured(self) -> bool:
@@ -79,8 +81,10 @@ def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expect
         play_mm=measured[0].play_mm if len(parts) == 2 and measured else None,
         witness=measured[0].witness if len(parts) == 2 and measured else None,
         pairs=MappingProxyType({name: pair.facts for name, pair in pairs.items()}),
+        spaces_mm3=expectations.spaces,
     )
-    return Fit(facts, (*checks, _whole(parts, expectations)), _joints(pairs.values()))
+    joined = _joined(parts, list(pairs.values()), expectations.clearance)
+    return Fit(facts, (*checks, *joined, _whole(parts, expectations)), _joints(pairs.values()))
 
 
 def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, *, only_pair: bool) -> _Pair:
@@ -92,14 +96,27 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
     widest = None if middles is None else widest_gap(spacing, middles)
     gap = gap if widest is None else replace(gap, max=widest[0], max_at=widest[1])
     smaller = min(first.manifold.volume(), second.manifold.volume())
-    apart = not only_pair and clearance is not None and gap.min > REACH * clearance
-    found = None if apart else _holding(spacing, first, second, gap, clearance)
-    checks = [
-        overlap_check(f"{prefix}.overlap", first.part, second.part, common, smaller_volume=smaller),
-        gap_check(f"{prefix}.gap", first.part, second.part, gap, clearance=clearance),
-    ]
-    if not apart:
-        checks.append(widest_gap_check(f"{prefix}.gap_max", first.part, second.part, gap, clearance=clearance))
+    neighbours = only_pair or middles is not None or clearance is None or gap.min <= REACH * clearance
+    shared = shared_area(spacing) if gap.min <= TOUCHING else 0.0
+    one = shared > 0.0 or common.volume() > OVERLAP_SHARE * smaller
+    found = _holding(spacing, first, second, gap, clearance, one=one) if neighbours else None
+    checks = [overlap_check(f"{prefix}.overlap", first.part, second.part, common, smaller_volume=smaller)]
+    if neighbours or clearance != 0.0:
+        checks.append(
+            gap_check(
+                f"{prefix}.gap",
+                *(first.part, second.part, gap),
+                clearance=clearance,
+                shared=shared,
+                common=common.volume(),
+            )
+        )
+    if neighbours:
+        checks.append(
+            widest_gap_check(
+                f"{prefix}.gap_max", first.part, second.part, gap, clearance=clearance, tolerance=expectations.tolerance
+            )
+        )
         checks.append(_moving(f"{prefix}.mobility", first.part, second.part, found, expectations))
     facts = PairFacts(
         gap_mm=gap,
@@ -108,7 +125,8 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
         play_mm=found.play if found else None,
         witness=found.witness_facts if found else None,
     )
-    return _Pair(facts, tuple(checks), () if clearance is None else _facing(first, second, spacing, clearance))
+    facing = () if clearance is None else _facing(first, second, spacing, clearance)
+    return _Pair(facts, tuple(checks), facing, neighbours)
 
 
 def _facing(first: Solid, second: Solid, spacing: Spacing, clearance: float) -> tuple[tuple[str, Mask], ...]:
@@ -137,11 +155,20 @@ def _unmeasured(prefix: str, first: Part, second: Part, *, spoiler: Part) -> _Pa
     return _Pair(UNKNOWN, tuple(checks))
 
 
-def _holding(spacing: Spacing, first: Solid, second: Solid, gap: Gap, clearance: float | None) -> Holding | None:
-    """Return how neighbouring parts hold each other, or None where the clearance is not known."""
-    if clearance == 0.0 or gap.min == 0.0:
+def _holding(
+    spacing: Spacing, first: Solid, second: Solid, gap: Gap, clearance: float | None, *, one: bool
+) -> Holding | None:
+    """Return how neighbouring parts hold each other, or None where the clearance is not known.
+
+    `one` says that they share faces or volume. Contacts are looked for as far as the parts really are apart, if that
+    is more than the clearance.
+    """
+    if one:
         return Holding("fused")
-    return None if clearance is None else holding(spacing, first.manifold, second.manifold, clearance=clearance)
+    if clearance is None:
+        return None
+    between = max(clearance, gap.min)
+    return holding(spacing, first.manifold, second.manifold, clearance=between) if between > 0.0 else Holding(None)
 
 
 def _moving(code: str, first: Part, second: Part, found: Holding | None, expectations: Expectations) -> Check:
@@ -161,11 +188,29 @@ def _verdict(count: int, pairs: Sequence[_Pair]) -> Verdict | None:
     verdicts = {pair.facts.verdict for pair in pairs} - {None}
     if "separable" in verdicts:
         return "separable"
-    held = [ends for ends, pair in zip(combinations(range(count), 2), pairs, strict=True) if pair.facts.verdict]
-    graph = coo_array((np.ones(len(held)), np.reshape(held, (-1, 2)).T.astype(np.int64)), shape=(count, count))
-    if connected_components(graph, directed=False)[0] > 1:
+    if _groups(count, [pair.facts.verdict is not None for pair in pairs]) > 1:
         return None
     return "captive" if "captive" in verdicts else "fused"
+
+
+def _joined(parts: Sequence[Part], pairs: Sequence[_Pair], clearance: float | None) -> tuple[Check, ...]:
+    """Check that more than two parts are all joined to each other by neighbours; of two, the gap says so."""
+    if len(parts) == 2:
+        return ()
+    code, names = "fit.joined", ", ".join(part.name for part in parts)
+    if clearance is None or not all(pair.measured for pair in pairs):
+        message = f"whether {names} are joined was not judged, because not every gap or no clearance is known"
+        return (Check(code, ok=False, skipped=True, message=message),)
+    groups = _groups(len(parts), [pair.neighbours for pair in pairs])
+    message = f"{names} must be joined, each a clearance of {clearance:.4g} mm from a neighbour, and they are in "
+    return (Check(code, ok=groups == 1, message=message + counted(groups, "group")),)
+
+
+def _groups(count: int, linked: Sequence[bool]) -> int:
+    """Return into how many groups parts fall, of which pairs, in the order of `combinations`, are linked or not."""
+    links = [ends for ends, link in zip(combinations(range(count), 2), linked, strict=True) if link]
+    graph = coo_array((np.ones(len(links)), np.reshape(links, (-1, 2)).T.astype(np.int64)), shape=(count, count))
+    return int(connected_components(graph, directed=False)[0])
 
 
 def _whole(parts: Sequence[Part], expectations: Expectations) -> Check:
@@ -173,4 +218,4 @@ def _whole(parts: Sequence[Part], expectations: Expectations) -> Check:
     if expectations.spaces is None:
         message = "volumes were not added up, because the uncut shell is not known"
         return Check(code, ok=False, skipped=True, message=message)
-    return whole_check(code, parts, expectations.spaces.gap, expectations.spaces.shell)
+    return whole_check(code, parts, expectations.spaces)

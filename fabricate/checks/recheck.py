@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from pydantic import BaseModel, ValidationError
-
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Expectations
-from fabricate.checks.facts import FinishFacts, WireFacts
-from fabricate.checks.finished import with_handles
+from fabricate.checks.facts import WireFacts
 from fabricate.checks.judge import Judgement, judged_parts, read_part
 from fabricate.checks.judged_wire import judged_wire
-from fabricate.checks.measured import expected_genus
+from fabricate.checks.recorded import (
+    RecordedWire,
+    as_recorded,
+    read_middles,
+    read_report,
+    recorded_checks,
+    recorded_expectations,
+)
 from fabricate.config import load_config
 from fabricate.errors import ReadError
 from fabricate.process import PROCESSES, Process
@@ -33,36 +36,11 @@ class Recheck(NamedTuple):
     wire: WireFacts | None = None
 
 
-class _Pattern(BaseModel):
-    handles: dict[str, int]
-
-
-class _Part(BaseModel):
-    file: str
-    volume_mm3: float
-
-
-class _Wire(_Part):
-    diameter_mm: float
-    length_mm: float
-
-
-class _Recorded(BaseModel):
-    """What is needed of a report.json."""
-
-    name: str
-    config_sha256: str
-    pattern: _Pattern
-    parts: dict[str, _Part]
-    wire: _Wire | None = None
-    finish: FinishFacts = FinishFacts((), None)
-
-
 def rechecked(paths: Sequence[Path], *, clearance: float | None) -> Recheck:
     """Read parts back and judge them; one folder made by `run`, or one or more STL files.
 
-    In a folder, report.json and config.toml say what the parts should be, and volumes are compared with those
-    in the report. Between bare files only what files can tell is judged; the rest is skipped.
+    In a folder, report.json, config.toml and curve.ply say what the parts should be, and volumes are compared with
+    those in the report. Between bare files only what files can tell is judged; the rest is skipped.
 
     Raises
     ------
@@ -80,36 +58,31 @@ def rechecked(paths: Sequence[Path], *, clearance: float | None) -> Recheck:
 
 
 def _rechecked_folder(folder: Path, clearance: float | None) -> Recheck:
-    recorded = _recorded(folder / "report.json")
+    recorded = read_report(folder / "report.json")
     if not (folder / "config.toml").is_file():
         raise ReadError(f"{folder / 'config.toml'}: not found; `fabricate run` wrote it beside the parts: put it back")
     config = load_config(folder / "config.toml")
+    between = config.solid.clearance if clearance is None else clearance
+    middles = read_middles(folder / "curve.ply", curves=recorded.pattern.curves)
     parts = [read_part(folder / part.file) for part in recorded.parts.values()]
-    judgement = judged_parts(
-        parts,
-        Expectations(
-            clearance=config.solid.clearance if clearance is None else clearance,
-            genus=with_handles(expected_genus(recorded.pattern.handles, core=config.solid.core), recorded.finish),
-            process=PROCESSES[config.process.name],
-            shop=config.process.shop,
-        ),
-    )
+    judgement = judged_parts(parts, recorded_expectations(recorded, config, clearance=between, middles=middles))
     moved = tuple(
         _volume_moved(name, judgement.parts[name].volume_mm3, part.volume_mm3)
         for name, part in recorded.parts.items()
         if name in judgement.parts
     )
-    facts, checks = _rechecked_wire(folder, recorded.wire, PROCESSES[config.process.name])
+    facts, wired = _rechecked_wire(folder, recorded.wire, PROCESSES[config.process.name])
+    designed = recorded_checks(recorded, config, clearance=between)
     return Recheck(
         recorded.name,
         recorded.config_sha256,
-        Judgement(judgement.parts, judgement.fit, judgement.checks + moved + checks),
+        Judgement(judgement.parts, judgement.fit, as_recorded((*judgement.checks, *moved, *wired, *designed))),
         facts,
     )
 
 
 def _rechecked_wire(
-    folder: Path, recorded: _Wire | None, process: Process
+    folder: Path, recorded: RecordedWire | None, process: Process
 ) -> tuple[WireFacts | None, tuple[Check, ...]]:
     """Return the facts and checks of a folder's wire, if its report has one."""
     if recorded is None:
@@ -124,14 +97,3 @@ def _volume_moved(name: str, found: float, recorded: float) -> Check:
     verb = "is" if ok else "has moved from"
     message = f"{name}: the volume {found:.2f} mm3 {verb} the {recorded:.2f} mm3 of the report"
     return Check(f"{name}.recorded_volume", ok=ok, message=message)
-
-
-def _recorded(path: Path) -> _Recorded:
-    try:
-        return _Recorded.model_validate(json.loads(path.read_bytes()))
-    except OSError:
-        raise ReadError(
-            f"{path}: not found or not readable; name a folder that `fabricate run` has made, or STL files"
-        ) from None
-    except (ValueError, ValidationError):
-        raise ReadError(f"{path}: this is not a report that `fabricate run` has written") from None

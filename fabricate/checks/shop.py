@@ -21,8 +21,16 @@ MEGABYTE = 1 << 20
 
 def most_polygons(shop: ShopConfig) -> int | None:
     """Return how many triangles one file may have, by the shop's limits of polygons and of file size."""
-    by_size = None if shop.file_mb is None else (int(shop.file_mb * MEGABYTE) - HEADER) // RECORD
+    by_size = None if shop.file_mb is None else max(0, (int(shop.file_mb * MEGABYTE) - HEADER) // RECORD)
     return min((limit for limit in (shop.polygons, by_size) if limit is not None), default=None)
+
+
+def polygons_wording(shop: ShopConfig) -> str:
+    """Return how many triangles the shop accepts in a file, and which key says so."""
+    most = most_polygons(shop)
+    if shop.file_mb is None or most == shop.polygons:
+        return f"process.shop.polygons accepts {most}"
+    return f"process.shop.file_mb, {shop.file_mb:g} MB, has room for {most}"
 
 
 def shop_checks(

@@ -24,7 +24,7 @@ def expectation(field: FieldInfo) -> str:
     is_length = not named and any(isinstance(fact, BeforeValidator) for fact in present.metadata)
     is_angle = any(isinstance(fact, PlainSerializer) and fact.func is format_angle for fact in present.metadata)
     kinds: dict[object, str] = {str: "text", bool: "true or false", int: "a whole number", float: "a number"}
-    show = format_angle if is_angle else format_length if is_length else "{:g}".format
+    show = format_angle if is_angle else format_length if is_length else "{:.15g}".format
     bounds = (
         f"{words} {show(getattr(fact, bound))}"
         for fact in present.metadata

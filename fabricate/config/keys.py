@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
-from types import MappingProxyType
-from typing import NamedTuple, get_args
+from types import MappingProxyType, UnionType
+from typing import Annotated, NamedTuple, Union, get_args, get_origin
+
+from pydantic.fields import FieldInfo
 
 from fabricate.config.curve_config import CurveConfig
 from fabricate.config.field_config import FIELDS, FieldConfig
@@ -47,6 +49,24 @@ def keys_of(section: str) -> dict[str, str]:
     """Return the dotted form of each key of a section; nothing for a section that does not exist."""
     models = SECTIONS.get(section, ())
     return {key: f"{section}.{key}" for model in models for key in model.model_fields}
+
+
+def table_keys(section: str, key: str) -> dict[str, str]:
+    """Return the dotted form of each key of the table that a key may have for a value; nothing if it takes none."""
+    fields = [model.model_fields[key] for model in SECTIONS.get(section, ()) if key in model.model_fields]
+    return {inner: f"{section}.{key}.{inner}" for table in _tables(fields) for inner in table.model_fields}
+
+
+def _tables(fields: Iterable[FieldInfo]) -> list[type[Section]]:
+    """Return the tables that fields may have for a value; those in a list, which have no key of their own, are none."""
+    left, found = [field.annotation for field in fields], []
+    while left:
+        each = left.pop()
+        if isinstance(each, type) and issubclass(each, Section):
+            found.append(each)
+        elif get_origin(each) in {Union, UnionType, Annotated}:
+            left += get_args(each)
+    return found
 
 
 def nearest_key(key: str, first: Mapping[str, str]) -> str:

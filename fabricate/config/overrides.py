@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from typing import Any, NamedTuple
 
-from fabricate.config.keys import keys_of, nearest_key
+from fabricate.config.keys import keys_of, nearest_key, table_keys
 from fabricate.errors import ConfigError
 
 _REPLACES = {
@@ -33,6 +33,8 @@ class Setting(NamedTuple):
 def parse_setting(override: str) -> Setting:
     """Split "section.key=value"; the value is TOML where it can be read as such and plain text otherwise.
 
+    Of a key that takes a table, "section.key.inner=value" sets one key of it.
+
     Raises
     ------
     ConfigError
@@ -43,7 +45,11 @@ def parse_setting(override: str) -> Setting:
         raise ConfigError(f'--set: expected key=value such as solid.thickness=2mm, found "{override}"')
     section, _, name = key.partition(".")
     known = keys_of(section)
-    if name not in known:
+    outer, _, inner = name.partition(".")
+    tabled = table_keys(section, outer) if inner else {}
+    if tabled and inner not in tabled:
+        raise ConfigError(f"--set: {key}: unknown key{nearest_key(inner, tabled)}")
+    if not tabled and name not in known:
         raise ConfigError(f"--set: {key}: unknown key{nearest_key(name or ('' if known else key), known)}")
     try:
         parsed = tomllib.loads(f"value = {text}")
@@ -53,10 +59,18 @@ def parse_setting(override: str) -> Setting:
 
 
 def with_setting(document: dict[str, Any], setting: Setting) -> dict[str, Any]:
-    """Return the raw config with one key set, and without the key that it is an alternative to."""
-    section, _, name = setting.key.partition(".")
+    """Return the raw config with one key set, and without the key that it is an alternative to.
+
+    A key within a table is set beside those that are there already; a table that is missing has that key alone.
+    """
+    section, _, dotted = setting.key.partition(".")
+    name, _, inner = dotted.partition(".")
     table = document.get(section, {})
     if not isinstance(table, dict):
         return document  # validation says that a section was expected
     kept = {other: found for other, found in table.items() if other not in _REPLACES.get(setting.key, ())}
-    return {**document, section: {**kept, name: setting.value}}
+    value: object = setting.value
+    if inner:
+        present = kept.get(name)
+        value = {**(present if isinstance(present, dict) else {}), inner: value}
+    return {**document, section: {**kept, name: value}}

@@ -57,6 +57,26 @@ def read_ply_attribute(content: bytes, name: str, *, limits: ReadLimits = DEFAUL
     return PointValues(mesh, _scalars(body, tables["vertex"], name))
 
 
+def read_ply_numbers(content: bytes, *, prefix: str, limits: ReadLimits = DEFAULT_LIMITS) -> Floats:
+    """Read, for each of the n points of a PLY file, its k numbers whose names begin with a prefix: (n, k), as ordered.
+
+    Raises
+    ------
+    ReadError
+        If the header cannot be understood, or the data do not have the size and form that it declares.
+    """
+    header = read_ply_header(content)
+    body = ply_body(content, header, limits=limits)
+    declared = [each for element in header.elements if element.name == "vertex" for each in element.properties]
+    names = [each.name for each in declared if each.name.startswith(prefix) and each.length_kind is None]
+    table = _read_tables(body, header, frozenset(names)).get("vertex")
+    return (
+        np.zeros((0, 0))
+        if table is None or not names
+        else np.stack([_scalars(body, table, name) for name in names], axis=1)
+    )
+
+
 def _mesh(body: PlyBody, header: PlyHeader, tables: dict[str, _Table], limits: ReadLimits) -> PolygonMesh:
     if not {"vertex", "face"} <= tables.keys() and not {"vertex", _STRIPS} <= tables.keys():
         raise ReadError(f"elements 'vertex' and 'face' were expected, found only {header.summary}")

@@ -17,15 +17,18 @@ element vertex {count}
 property double x
 property double y
 property double z
-element edge {count}
+{joints}element edge {count}
 property int vertex1
 property int vertex2
 end_header
 """
 
 
-def write_curves(path: Path, polylines: Sequence[Floats]) -> None:
+def write_curves(path: Path, polylines: Sequence[Floats], middles: Sequence[Floats] = ()) -> None:
     """Write points, (n, 3) mm for each of one or more closed curves: an edge from each to the next, and last to first.
+
+    `middles` are, for each curve, r places on the mid-line of the joint under each of its points, (r, n, 3) mm. A point
+    has them as properties: joint0_x, joint0_y, joint0_z and so on.
 
     Raises
     ------
@@ -38,9 +41,12 @@ def write_curves(path: Path, polylines: Sequence[Floats]) -> None:
     fewest = min(map(len, curves), default=0)
     if fewest < 3:
         raise ValueError(f"expected closed curves of at least 3 points, found {len(curves)}, the shortest of {fewest}")
+    under = [frozen(each, np.float64, (None, len(curve), 3)) for each, curve in zip(middles, curves, strict=False)]
     points = np.concatenate(curves)
+    rows = np.concatenate([points[None], np.concatenate(under, axis=1)]) if under else points[None]
+    joints = "".join(f"property double joint{k}_{axis}\n" for k in range(len(rows) - 1) for axis in "xyz")
     starts = np.split(np.arange(len(points)), np.cumsum([len(curve) for curve in curves])[:-1])
     edges = np.concatenate([np.stack([start, np.roll(start, -1)], axis=1) for start in starts])
     said = "one closed curve" if len(curves) == 1 else f"{len(curves)} closed curves, one after the other"
-    header = HEADER.format(curves=said, count=len(points)).encode("ascii")
-    write_whole(path, header + points.astype("<f8").tobytes() + edges.astype("<i4").tobytes())
+    header = HEADER.format(curves=said, count=len(points), joints=joints).encode("ascii")
+    write_whole(path, header + rows.swapaxes(0, 1).astype("<f8").tobytes() + edges.astype("<i4").tobytes())

@@ -30,10 +30,13 @@ def write_sculpture(folder: Path, parts: Sequence[Part], curves: Sequence[Floats
     return paths
 
 
-def write_parts(folder: Path, parts: Sequence[Part], curves: Sequence[Floats], *, name: str) -> tuple[Path, ...]:
+def write_parts(
+    folder: Path, parts: Sequence[Part], curves: Sequence[Floats], *, name: str, middles: Sequence[Floats] = ()
+) -> tuple[Path, ...]:
     """Write the parts as NAME.stl each, pair.3mf and curve.ply; return the paths of the STL files.
 
-    `curves` are the points of each closed curve, (c, 3) mm. `name` is the sculpture's, as programs show it.
+    `curves` are the points of each closed curve, (c, 3) mm. `name` is the sculpture's, as programs show it. `middles`
+    are places on the mid-line of the joint under each curve, (r, c, 3) mm.
 
     Raises
     ------
@@ -44,7 +47,7 @@ def write_parts(folder: Path, parts: Sequence[Part], curves: Sequence[Floats], *
     for path, part in zip(paths, parts, strict=True):
         write_stl(path, part)
     write_3mf(folder / "pair.3mf", parts, name=name)
-    write_curves(folder / "curve.ply", curves)
+    write_curves(folder / "curve.ply", curves, middles)
     return paths
 
 

@@ -23,6 +23,10 @@ GROWTH, PATIENCE = 1.5, 12
 """How much it grows at least when it has made no difference, and how often that may happen before it is the end."""
 
 
+CLOSE = 1.01
+"""Tolerances that differ by less than this factor are not told apart."""
+
+
 class Affordable(NamedTuple):
     """A surface whose parts keep a budget, and the tolerance that it was divided with, mm."""
 
@@ -30,30 +34,54 @@ class Affordable(NamedTuple):
     tolerance: float
 
 
-def affordable(make: Callable[[float], CutSurface], *, tolerance: float, core: Core, budget: int | None) -> Affordable:
+def affordable(
+    make: Callable[[float], CutSurface], *, tolerance: float, core: Core, budget: int | None, limit: str = "fewer fit"
+) -> Affordable:
     """Divide a surface with the tolerance, mm, or with the finest coarser one whose parts keep the budget.
 
-    `make` divides it with a given tolerance. `budget` is the number of triangles that each part may have.
+    `make` divides it with a given tolerance. `budget` is the number of triangles that each part may have, and `limit`
+    says in words where it comes from. The resolution of tiles is a whole number: the finest is found that keeps the
+    budget.
 
     Raises
     ------
     SolidError
         If even the coarsest division has more.
     """
-    surface, growth, waited = make(tolerance), 1.0, 0
-    count = largest_part(surface, core=core)
+    found, growth, waited = Affordable(make(tolerance), tolerance), 1.0, 0
+    finer, count = found, largest_part(found.surface, core=core)
     while budget is not None and count > budget and waited < PATIENCE:
         # The error grows with the square of an edge's length, and so does a triangle's area.
-        tolerance *= max(growth, MARGIN * count / budget)
-        surface = make(tolerance)
-        before, count = count, largest_part(surface, core=core)
+        tolerance *= max(growth, MARGIN * count / max(budget, 1))
+        finer, found = found, Affordable(make(tolerance), tolerance)
+        before, count = count, largest_part(found.surface, core=core)
         growth, waited = (GROWTH, waited + 1) if count == before else (1.0, 0)
-    if budget is None or count <= budget:
-        return Affordable(surface, tolerance)
+    if budget is None or found is finer:
+        return found
+    if count <= budget:
+        return _finest(make, finer, found, core=core, budget=budget)
     raise SolidError(
-        f"the largest part has {count} triangles however coarsely it is divided, and process.shop accepts {budget}; "
+        f"the largest part has {count} triangles however coarsely it is divided, and {limit}; "
         'ask for a larger pattern.tile_size, or for prepare.detail = "smooth" where the detail of a mesh is kept'
     )
+
+
+def _finest(
+    make: Callable[[float], CutSurface], finer: Affordable, coarser: Affordable, *, core: Core, budget: int
+) -> Affordable:
+    """Return the finest division from one that has too many triangles to a coarser one that keeps the budget."""
+    while _resolution(finer.surface) - _resolution(coarser.surface) > 1 and coarser.tolerance > CLOSE * finer.tolerance:
+        tolerance = float(np.sqrt(finer.tolerance * coarser.tolerance))
+        between = Affordable(make(tolerance), tolerance)
+        if largest_part(between.surface, core=core) <= budget:
+            coarser = between
+        else:
+            finer = between
+    return coarser
+
+
+def _resolution(surface: CutSurface) -> int:
+    return int(surface.rays.shape[1]) - 1
 
 
 def largest_part(surface: CutSurface, *, core: Core) -> int:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from joints import GAP, ball, case, half_balls, spacing
+from joints import GAP, ball, case, half_balls, part_of, spacing
+from manifold3d import Manifold
 
 from fabricate.arrays import Floats
-from fabricate.checks.contacts import contacts, facing_triangles, joint_pivot
+from fabricate.checks.contacts import contacts, facing_triangles, joint_pivot, shared_area
+from fabricate.checks.geometry import area
 
 
 def test_contacts_face_each_other_at_the_clearance() -> None:
@@ -50,3 +52,17 @@ def test_without_clearance_the_shared_faces_are_the_joint() -> None:
     measured = spacing(ball(10.0), case(10.0))
     other = facing_triangles(measured.second, measured.first, measured.to_first, clearance=0.0)
     assert other.tolist() == [False] * 12 + [True] * (len(other) - 12)
+
+
+@pytest.mark.parametrize(("gap", "share"), [(0.0, 1.0), (0.01, 0.0), (-0.01, 0.0)])
+def test_shared_faces_have_the_area_of_what_coincides(gap: float, share: float) -> None:
+    inside = ball(10.0)
+    found = shared_area(spacing(inside, case(10.0 + gap)))
+    assert found == pytest.approx(share * area(inside), rel=1e-6)
+
+
+def test_faces_are_shared_as_far_as_they_cover_each_other() -> None:
+    plate = part_of(Manifold.cube((30, 30, 8)).refine(15))
+    cube = part_of(Manifold.cube((6, 6, 6)).translate((7, 9, 8)))
+    assert shared_area(spacing(plate, cube)) == pytest.approx(36.0, rel=0.2)
+    assert shared_area(spacing(cube, plate)) == pytest.approx(36.0)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import trimesh
 
 from fabricate.checks.check import Check
-from fabricate.checks.facts import Gap
-from fabricate.checks.fit import gap_check, overlap_check, whole_check
+from fabricate.checks.facts import Gap, Spaces
+from fabricate.checks.fit import gap_check, overlap_check, whole_check, widest_gap_check
 from fabricate.checks.geometry import as_manifold, signed_volume
 from fabricate.solid.part import Part
 
@@ -95,15 +97,39 @@ def test_without_a_clearance_the_gap_is_said_but_not_judged() -> None:
     assert "0.123 mm" in unknown.message
 
 
-def test_parts_that_touch_on_purpose_are_not_judged_by_their_gap() -> None:
-    touching = gap_check("fit.gap", box("red"), box("green"), Gap(0.0, None), clearance=0.0)
-    assert touching.skipped
-    assert not touching.ok
-    assert "on purpose" in touching.message
+@pytest.mark.parametrize(("width", "shared", "ok"), [(0.0, 2.5, True), (0.0, 0.0, False), (0.3, 0.0, False)])
+def test_parts_that_are_to_be_one_must_share_faces(width: float, shared: float, ok: bool) -> None:
+    at = (1.0, 2.0, 3.0) if width else None
+    touching = gap_check("fit.gap", box("red"), box("green"), Gap(width, at), clearance=0.0, shared=shared)
+    assert touching.ok is ok
+    assert not touching.skipped
+    assert ("0.3 mm, at (1, 2, 3)" in touching.message) == (width > 0.0)
+
+
+def test_parts_that_overlap_are_said_to() -> None:
+    over = Gap(0.0, (1.0, 2.0, 3.0), queried=0.1)
+    found = gap_check("fit.gap", box("red"), box("green"), over, clearance=0.3, common=0.5)
+    assert found.failed
+    assert "overlap: 0.5 mm3" in found.message
+    assert found.where.tolist() == [[1, 2, 3]]
 
 
 def whole(parts: tuple[Part, ...], space: Part, shell: Part) -> Check:
-    return whole_check("fit.whole", parts, space, shell)
+    return whole_check("fit.whole", parts, Spaces(signed_volume(space), signed_volume(shell)))
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "advice"),
+    [(0.05, "solid.tolerance smaller than 0.05 mm"), (0.005, "larger pattern.tile_size"), (None, "larger")],
+)
+def test_a_gap_too_wide_says_what_to_do(tolerance: float | None, advice: str) -> None:
+    wide = Gap(0.3, None, max=0.45, max_at=(1.0, 2.0, 3.0))
+    found = widest_gap_check("fit.gap_max", box("red"), box("green"), wide, clearance=0.3, tolerance=tolerance)
+    assert found.failed
+    assert f"ask for a {advice}" in found.message
+    assert ("solid.tolerance" in found.message) == (tolerance == 0.05)
+    good = replace(wide, max=0.38)
+    assert "ask" not in widest_gap_check("fit.gap_max", box("red"), box("green"), good, clearance=0.3).message
 
 
 def hollow(name: str, outer: float, inner: float) -> Part:

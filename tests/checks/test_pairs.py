@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
+from joints import GAP, peg_with_heads
 
+from fabricate.checks.check import Check
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.geometry import as_manifold
 from fabricate.checks.pairs import Solid, fit
@@ -27,6 +29,7 @@ def test_every_pair_of_three_is_judged() -> None:
     made = fit(parts, solids(*parts), Expectations(clearance=0.3))
     assert [check.code for check in made.checks if check.ok] == [
         "fit.a-b.overlap", "fit.a-b.gap", "fit.a-c.overlap", "fit.a-c.gap", "fit.b-c.overlap", "fit.b-c.gap",
+        "fit.joined",
     ]  # fmt: skip
 
 
@@ -50,3 +53,49 @@ def test_boxes_in_a_row_come_apart() -> None:
     made = fit(parts, solids(*parts), Expectations(clearance=0.3))
     assert made.facts.verdict == "separable"
     assert [check.code for check in made.checks if check.failed] == ["fit.mobility"]
+
+
+def judged(first: Part, second: Part, clearance: float) -> dict[str, Check]:
+    made = fit([first, second], solids(first, second), Expectations(clearance=clearance))
+    return {check.code: check for check in made.checks}
+
+
+def test_parts_that_share_a_face_are_fused() -> None:
+    found = judged(box("a", 0.0), box("b", 1.0), 0.0)
+    assert found["fit.gap"].ok
+    assert "share 1 mm2" in found["fit.gap"].message
+    assert found["fit.mobility"].ok
+
+
+@pytest.mark.parametrize("x", [500.0, 1.3, 1.001])
+def test_parts_that_are_apart_are_not_fused_whatever_the_clearance(x: float) -> None:
+    found = judged(box("a", 0.0), box("b", x), 0.0)
+    assert found["fit.gap"].failed
+    assert f"{x - 1.0:.4g} mm" in found["fit.gap"].message
+    assert found["fit.mobility"].failed
+
+
+def test_parts_that_touch_along_an_edge_only_are_not_fused() -> None:
+    corner = Part("b", box("b", 1.0).points + np.array([0.0, 1.0, 0.0]), box("b", 1.0).triangles)
+    found = judged(box("a", 0.0), corner, 0.0)
+    assert found["fit.gap"].failed
+    assert "share none" in found["fit.gap"].message
+    assert found["fit.mobility"].failed
+
+
+def test_contacts_are_looked_for_as_far_as_the_gap_is_wide() -> None:
+    red, blue = peg_with_heads()
+    found = judged(Part("a", red.points, red.triangles), blue, GAP / 4)
+    assert found["fit.mobility"].ok
+    assert "captive" in found["fit.mobility"].message
+
+
+def test_a_part_without_neighbours_is_not_joined_to_the_others() -> None:
+    parts = box("a", 0.0), box("b", 1.0), box("c", 9.0)
+    near, far = (
+        {check.code: check for check in fit(each, solids(*each), Expectations(clearance=0.0)).checks}
+        for each in ([*parts[:2], box("c", 2.0)], parts)
+    )
+    assert near["fit.joined"].ok
+    assert far["fit.joined"].failed
+    assert "2 groups" in far["fit.joined"].message

@@ -12,9 +12,11 @@ import trimesh
 
 from fabricate import pipeline
 from fabricate.checks.check import Check
+from fabricate.checks.judge import read_part
 from fabricate.checks.recheck import Recheck, rechecked
 from fabricate.config import load_config
 from fabricate.errors import ReadError
+from fabricate.output.curve_ply import write_curves
 from fabricate.output.stl import write_stl
 from fabricate.solid.part import Part
 
@@ -40,6 +42,17 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path.write_text(CONFIG)
     pipeline.run(load_config(path), name="small", out=folder / "out", progress=lambda _: None)
     return folder / "out" / "small"
+
+
+@pytest.fixture(scope="module")
+def banded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three parts, on larger tiles."""
+    folder = tmp_path_factory.mktemp("banded")
+    path = folder / "banded.toml"
+    path.write_text(CONFIG)
+    settings = ["pattern.rings=[0.36, 0.64]", "pattern.tile_size=20mm"]
+    pipeline.run(load_config(path, settings), name="banded", out=folder / "out", progress=lambda _: None)
+    return folder / "out" / "banded"
 
 
 @pytest.fixture
@@ -78,6 +91,49 @@ def test_a_finished_folder_passes_with_all_that_its_report_knows(made: Path) -> 
     )
     for code in ("yellow.genus", "fit.gap", "yellow.recorded_volume", "blue.recorded_volume"):
         assert named(found, code).ok
+
+
+@pytest.mark.parametrize("name", ["made", "banded"])
+def test_the_verdict_is_that_of_the_run(name: str, request: pytest.FixtureRequest) -> None:
+    folder = request.getfixturevalue(name)
+    recorded = json.loads((folder / "report.json").read_text())
+    found = rechecked([folder], clearance=None).judgement.checks
+    assert {check["code"]: (check["ok"], check["skipped"]) for check in recorded["checks"]} == {
+        check.code: (check.ok, check.skipped) for check in found if not check.code.endswith(".recorded_volume")
+    }
+    said = {check["code"]: check["message"] for check in recorded["checks"]}
+    wide = [check for check in found if check.code.endswith(".gap_max")]
+    assert len(wide) == len(recorded["parts"]) - 1
+    assert [check.message for check in wide] == [said[check.code] for check in wide]
+
+
+def test_what_the_report_records_is_said_to_be_so(banded: Path) -> None:
+    found = rechecked([banded], clearance=None)
+    for code in ("pattern.neck", "pattern.band", "fit.whole"):
+        assert named(found, code).message.endswith("as recorded in report.json)"), code
+    assert "recorded" not in named(found, "fit.joined").message
+
+
+def test_a_gap_too_wide_for_the_clearance_that_is_asked_for_is_noticed(made: Path) -> None:
+    assert failed(rechecked([made], clearance=0.2)) == {"fit.gap_max"}
+
+
+def test_a_part_that_shrank_is_noticed(copy: Path) -> None:
+    part = read_part(copy / "yellow.stl")
+    write_stl(copy / "yellow.stl", Part("yellow", 0.98 * part.points, part.triangles))
+    assert {"yellow.recorded_volume", "fit.whole"} <= failed(rechecked([copy], clearance=None))
+
+
+def test_without_a_mid_line_the_widest_gap_is_skipped(copy: Path) -> None:
+    write_curves(copy / "curve.ply", [np.eye(3)])
+    found = rechecked([copy], clearance=None)
+    assert named(found, "fit.gap_max").skipped
+    (copy / "curve.ply").write_bytes(b"ply\n")
+    with pytest.raises(ReadError, match=r"curve\.ply"):
+        rechecked([copy], clearance=None)
+    (copy / "curve.ply").unlink()
+    with pytest.raises(ReadError, match=r"curve\.ply: not found"):
+        rechecked([copy], clearance=None)
 
 
 def test_parts_that_changed_places_are_noticed(copy: Path) -> None:

@@ -20,6 +20,7 @@ from fabricate.checks.facts import (
     PartFacts,
     PatternFacts,
     Play,
+    Spaces,
     Spread,
     Witness,
 )
@@ -70,7 +71,11 @@ def report(
             band_mm={},
         ),
         parts={"red": PART},
-        fit=FitFacts(0.3, gap, 0.0, "captive", play, WITNESS, {"red-blue": PairFacts(gap, 0.0, "captive", None, None)}),
+        fit=FitFacts(
+            *(0.3, gap, 0.0, "captive", play, WITNESS),
+            {"red-blue": PairFacts(gap, 0.0, "captive", None, None)},
+            Spaces(12.0, 345.0),
+        ),
         checks=checks,
         seconds={"read": seconds},
     )
@@ -121,6 +126,7 @@ def test_keys_are_those_of_the_contract() -> None:
                 "witness": None,
             }
         },
+        "spaces_mm3": {"gap": 12, "shell": 345},
     }
     assert found["seconds"] == {"read": 0.5}
 

@@ -9,7 +9,7 @@ import trimesh
 from fabricate.checks.check import Check
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.judge import judged_parts
-from fabricate.checks.shop import HEADER, MEGABYTE, RECORD, most_polygons
+from fabricate.checks.shop import HEADER, MEGABYTE, RECORD, most_polygons, polygons_wording
 from fabricate.config import ShopConfig
 from fabricate.solid.part import Part
 
@@ -78,3 +78,9 @@ def test_the_tighter_of_two_limits_counts() -> None:
     assert most_polygons(ShopConfig(polygons=5000, file_mb=1.0)) == 5000
     assert most_polygons(ShopConfig(polygons=50_000, file_mb=1.0)) == (MEGABYTE - HEADER) // RECORD
     assert most_polygons(ShopConfig(wall=1.0)) is None
+
+
+def test_the_key_that_limits_polygons_is_named() -> None:
+    assert polygons_wording(ShopConfig(polygons=5000, file_mb=1.0)) == "process.shop.polygons accepts 5000"
+    assert polygons_wording(ShopConfig(polygons=50_000, file_mb=1.0)).startswith("process.shop.file_mb, 1 MB, has room")
+    assert polygons_wording(ShopConfig(file_mb=1e-6)) == "process.shop.file_mb, 1e-06 MB, has room for 0"

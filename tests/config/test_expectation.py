@@ -2,6 +2,7 @@
 
 import pytest
 
+from fabricate.config import ShopConfig
 from fabricate.config.expectation import expectation
 from fabricate.config.keys import SECTIONS
 
@@ -10,7 +11,7 @@ FIELDS = {
     for models in SECTIONS.values()
     for model in models
     for key, field in model.model_fields.items()
-}
+} | {f"ShopConfig.{key}": field for key, field in ShopConfig.model_fields.items()}
 
 
 @pytest.mark.parametrize(
@@ -29,6 +30,7 @@ FIELDS = {
         ("HeightConfig.axis", "three numbers such as [0, 0, 1]"),
         ("HeightConfig.reverse", "true or false"),
         ("SolidConfig.thickness", "a length, more than 0 mm, or a table of min, max, by"),
+        ("ShopConfig.polygons", "a whole number, at least 1000, at most 100000000"),
         ("SolidConfig.core", 'one of "hollow", "blue", "yellow"'),
     ],
 )

@@ -4,8 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from fabricate.config import Config, CubeConfig, FileConfig, PatternConfig
+from fabricate.config import Config, CubeConfig, FileConfig, PatternConfig, ShopConfig
 from fabricate.config.overrides import Setting, parse_setting, with_setting
+from fabricate.config.solid_config import BaseConfig, OpeningsConfig
 from fabricate.errors import ConfigError
 
 TORUS = '[source]\nshape = "torus"\n'
@@ -37,6 +38,22 @@ def test_an_override_sets_its_key(read: Read, override: str, section: str, key: 
     assert getattr(getattr(read(TORUS, override), section), key) == value
 
 
+def test_an_override_sets_one_key_of_a_table(read: Read) -> None:
+    assert read(TORUS, "process.shop.polygons=30000").process.shop == ShopConfig(polygons=30_000)
+    assert read(TORUS, "solid.base.height=4mm").solid.base == BaseConfig(height=4.0)
+    assert read(TORUS, "solid.openings.diameter=3mm", "solid.openings.count=2").solid.openings == OpeningsConfig(
+        diameter=3.0, count=2
+    )
+    both = TORUS + '[process]\nshop = { wall = "1 mm", polygons = 5000 }'
+    assert read(both, "process.shop.polygons=30000").process.shop == ShopConfig(wall=1.0, polygons=30_000)
+    varying = TORUS + '[solid]\nthickness = { min = "2 mm", max = "3 mm", by = "height" }'
+    assert read(varying, "solid.thickness.max=4mm").solid.thickness_range == (2.0, 4.0)
+
+
+def test_what_a_table_lacks_is_named(read: Read) -> None:
+    assert "solid.openings.diameter: expected a length" in complaint(read, TORUS, "solid.openings.count=2")
+
+
 def test_an_override_replaces_its_alternative(read: Read) -> None:
     fine = TORUS + '[pattern]\ntile_size = "3 mm"'
     assert read(fine, "pattern.levels=1").pattern == PatternConfig(levels=1)
@@ -65,7 +82,11 @@ def test_the_last_override_of_a_key_wins(read: Read) -> None:
         ("pattern.sed=3", ("pattern.sed", "did you mean pattern.seed?")),
         ("patern.seed=3", ("patern.seed", "did you mean pattern.seed?")),
         ("thickness=3mm", ("thickness", "did you mean solid.thickness?")),
-        ("solid.thickness.mm=3", ("solid.thickness.mm", "did you mean solid.thickness?")),
+        ("solid.thickness.mm=3", ("solid.thickness.mm", "known here: solid.thickness.min, solid.thickness.max")),
+        ("solid.clearance.mm=3", ("solid.clearance.mm", "did you mean solid.clearance?")),
+        ("process.shop.polygon=5000", ("process.shop.polygon", "did you mean process.shop.polygons?")),
+        ("process.shop.polygons=10", ("process.shop.polygons", "at least 1000")),
+        ("process.shop.polygons.most=5000", ("unknown key",)),
         ("solid.thickness=2", ("solid.thickness", "unit", '"2 mm"')),
         ("solid.core=bleu", ("solid.core", 'did you mean "blue"?')),
         ("pattern.seed=1\nlevels=2", ("pattern.seed", "whole number")),

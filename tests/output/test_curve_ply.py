@@ -7,7 +7,9 @@ from pathlib import Path
 import networkx as nx
 import numpy as np
 import pytest
+import trimesh
 
+from fabricate.formats.read_ply import read_ply_numbers
 from fabricate.output.curve_ply import write_curves
 
 ANGLE = np.linspace(0, 2 * np.pi, 101)[:-1]
@@ -68,3 +70,12 @@ def test_what_is_no_closed_curve_is_refused(tmp_path: Path, points: np.ndarray) 
 def test_no_curve_at_all_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="found 0"):
         write_curves(tmp_path / "curve.ply", [])
+
+
+def test_places_under_the_curve_are_properties_of_its_points(tmp_path: Path) -> None:
+    under = np.stack([0.9 * CURVE, 0.8 * CURVE])
+    write_curves(tmp_path / "curve.ply", [CURVE, 2 * CURVE], [under, 2 * under])
+    found = read_ply_numbers((tmp_path / "curve.ply").read_bytes(), prefix="joint")
+    np.testing.assert_array_equal(found, np.tile(np.concatenate([CURVE, 2 * CURVE]), 2) * np.repeat([0.9, 0.8], 3))
+    read_back = trimesh.load(tmp_path / "curve.ply")
+    np.testing.assert_allclose(read_back.vertices[:100], CURVE)

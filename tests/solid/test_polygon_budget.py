@@ -12,7 +12,7 @@ from fabricate.errors import SolidError
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Core
 from fabricate.solid.polygon_budget import affordable, largest_part
-from fabricate.solid.settling import fitted_cut
+from fabricate.solid.settling import fitted_cut, settled
 from fabricate.solid.solids import solids
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
@@ -56,6 +56,17 @@ def test_the_surface_is_divided_more_coarsely_until_it_fits(duotone: Duotone) ->
     assert found.tolerance > 0.05
 
 
+@pytest.mark.parametrize("share", [0.8, 0.6, 0.4])
+def test_no_finer_resolution_keeps_the_budget(duotone: Duotone, share: float) -> None:
+    counts = [
+        largest_part(settled(duotone, clearance=0.3, rings=(0.5,), resolution=resolution), core="hollow")
+        for resolution in range(3, 13)
+    ]
+    budget = int(share * largest_part(divided(duotone, 0.05), core="hollow"))
+    found = affordable(partial(divided, duotone), tolerance=0.05, core="hollow", budget=budget)
+    assert largest_part(found.surface, core="hollow") == max(count for count in counts if count <= budget)
+
+
 def test_what_never_fits_is_refused(duotone: Duotone) -> None:
-    with pytest.raises(SolidError, match=r"however coarsely .* process.shop accepts 1000"):
-        affordable(partial(divided, duotone), tolerance=0.5, core="hollow", budget=1000)
+    with pytest.raises(SolidError, match=r"however coarsely .* and the shop accepts 1000"):
+        affordable(partial(divided, duotone), tolerance=0.5, core="hollow", budget=1000, limit="the shop accepts 1000")
