@@ -17,6 +17,7 @@ from pydantic import BaseModel, ValidationError
 
 from fabricate.arrays import Floats
 from fabricate.checks.check import Check
+from fabricate.checks.draining import draining_checks
 from fabricate.checks.expectations import Band, Expectations, Neck
 from fabricate.checks.facts import FinishFacts, JointFacts, Spaces, Xyz
 from fabricate.checks.finished import with_handles
@@ -33,6 +34,7 @@ AS_RECORDED = {
     "pattern.band": "widths",
     "pattern.area_share": "shares",
     "fit.ridge": "heights",
+    "finish.openings": "diameters",
     "fit.whole": "volumes of gap and shell",
 }
 """Checks that rest on what the report records, and what that is."""
@@ -142,9 +144,10 @@ def recorded_expectations(recorded: Recorded, config: Config, *, clearance: floa
 
 
 def recorded_checks(recorded: Recorded, config: Config, *, clearance: float) -> tuple[Check, ...]:
-    """Return the checks of ridge and area share, as `run` adds them to those of the parts."""
+    """Return the checks of ridge, openings and area share, as `run` adds them to those of the parts."""
     ridge = () if recorded.joint is None else joint_checks(recorded.joint, clearance=clearance)
-    return ridge + share_checks(config.pattern.area_share, found=recorded.pattern.area_share["yellow"])
+    openings = draining_checks(recorded.finish.openings, process=PROCESSES[config.process.name])
+    return ridge + openings + share_checks(config.pattern.area_share, found=recorded.pattern.area_share["yellow"])
 
 
 def as_recorded(checks: Iterable[Check]) -> tuple[Check, ...]:

@@ -106,11 +106,12 @@ def wall_layers(
 ) -> WallLayers:
     """Return the layers between the surface and the points `inner`, (n, 3) mm, one under each of its points.
 
-    The facing walls are `clearance` mm apart. `keeper` is the region that has a core and goes down to the floor.
+    The facing walls are `clearance` mm apart. `keeper` is the region that has a core and goes down to the floor. Beside
+    a core nothing is drawn together: its floor would come too near.
     """
     task = _Task(surface=surface, inner=inner, clearance=clearance, keeper=keeper, joint=joint)
     moves, shares, layers = _moved_apart(task)
-    for _ in range(DRAWINGS):
+    for _ in range(DRAWINGS if keeper is None else 0):
         wide = _widened(_middle_gaps(surface, layers)) / clearance
         if not (wide > WIDE).any():
             break
