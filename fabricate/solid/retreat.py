@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -34,6 +35,9 @@ HALVINGS = 6
 LAST = len(KEPT) - 1 + HALVINGS
 """Number of the last step."""
 
+ROUNDINGS = 4.0
+"""No safe place is nearer to the outer surface than so many steps of the numbers in a file, far from the origin."""
+
 RINGS = 3
 """How far around the points that take a step others take a part of one, in edges."""
 
@@ -53,6 +57,8 @@ class Retreat:
         The inner surface, outward, by surface points.
     keeper : int or None
         The region that keeps the inside, down to a floor under all others.
+    nearest : float
+        Least share of the ways under the outer points that is left after all halvings.
     """
 
     proposed: Assembly
@@ -60,6 +66,7 @@ class Retreat:
     under: Floats
     inner: Indices
     keeper: int | None
+    nearest: float
 
     def __post_init__(self) -> None:
         for name in ("outer", "under"):
@@ -85,7 +92,9 @@ class Retreat:
             numbers = np.unique(own)
             outer[region] = copy
             ways[region, numbers] = downward(copy, own, straight)[numbers]
-        return cls(proposed, outer, SAFE_DEPTH * thickness * ways, surface.triangles, keeper)
+        least = ROUNDINGS * float(np.spacing(np.float32(np.abs(surface.points).max())))
+        depth = max(SAFE_DEPTH * thickness, least)
+        return cls(proposed, outer, depth * ways, surface.triangles, keeper, least / depth)
 
     def after(self, steps: Floats) -> Assembly:
         """Return the assembly when each inner point has taken so many steps, (n,) float from 0 to `LAST`.
@@ -94,22 +103,24 @@ class Retreat:
         """
         proposed = _blocks(self.proposed)
         blocks, sides = proposed.copy(), len(self.outer)
-        _outer(blocks, sides)[:] = _on_paths(_outer(proposed, sides), self.outer, np.zeros_like(self.under), steps)
-        _inner(blocks, sides)[:] = _on_paths(_inner(proposed, sides), self.outer, self.under, steps)
+        on_paths = partial(_on_paths, steps=steps, nearest=self.nearest)
+        _outer(blocks, sides)[:] = on_paths(_outer(proposed, sides), self.outer, np.zeros_like(self.under))
+        _inner(blocks, sides)[:] = on_paths(_inner(proposed, sides), self.outer, self.under)
         rings = _rings(proposed, self.proposed, sides)
         for number, (ring, new) in enumerate(zip(rings, _rings(blocks, self.proposed, sides), strict=True), start=1):
             outer, under = self.outer[: len(ring)], self.under[: len(ring)]
-            new[:] = _on_paths(ring, outer, number / (len(rings) + 1) * under, steps)
+            new[:] = on_paths(ring, outer, number / (len(rings) + 1) * under)
         if len(blocks) > 2 * sides + sum(map(len, rings)) and self.keeper is not None:
             inner, ends = _inner(proposed, sides)[self.keeper], (self.outer[self.keeper], self.under[self.keeper])
-            blocks[-1] = proposed[-1] + _on_paths(inner, *ends, _least_around(steps, self.inner)) - inner
+            blocks[-1] = proposed[-1] + on_paths(inner, *ends, steps=_least_around(steps, self.inner)) - inner
         return replace(self.proposed, points=stored(blocks.reshape(-1, 3)))
 
 
-def _on_paths(proposed: Floats, outer: Floats, under: Floats, steps: Floats) -> Floats:
+def _on_paths(proposed: Floats, outer: Floats, under: Floats, *, steps: Floats, nearest: float) -> Floats:
     """Return where points are, (..., n, 3) mm, after so many steps, (n,), on their ways from the proposed places."""
     gone = 1.0 - np.interp(steps, np.arange(len(KEPT)), KEPT)[:, None]
-    safe = outer + 0.5 ** np.maximum(steps - (len(KEPT) - 1), 0.0)[:, None] * under
+    share = np.maximum(0.5 ** np.maximum(steps - (len(KEPT) - 1), 0.0), nearest)
+    safe = outer + share[:, None] * under
     places: Floats = proposed + gone * (safe - proposed)
     return places
 

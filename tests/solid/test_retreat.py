@@ -108,6 +108,14 @@ def test_everything_is_cured_and_what_is_well_stays(surface: CutSurface, core: C
     assert blocks[0] == pytest.approx(blocks[1], abs=1e-5)
 
 
+def test_far_from_the_origin_safe_places_are_no_nearer_than_numbers_can_tell(surface: CutSurface) -> None:
+    far = replace(surface, points=surface.points + 12_000.0, base=surface.base + 12_000.0)
+    retreat = retreat_of(far)
+    made = retreat.after(np.full(len(far.points), float(LAST)))
+    for part in made.parts:
+        assert len(np.unique(part.points, axis=0)) == len(part.points)
+
+
 def assembly_with(retreat: Retreat, points: np.ndarray) -> Retreat:
     made = retreat.proposed
     return replace(retreat, proposed=replace(made, points=points))
