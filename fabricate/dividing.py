@@ -32,18 +32,31 @@ from fabricate.surface.tiling import Tiling
 from fabricate.wishes import curve_wish, in_place, tile_wish
 
 
-def read_bodies(config: Config, *, watch: Stopwatch, store: Store) -> tuple[tuple[Prepared, ...], FieldWish | None]:
-    """Read what a config divides; return its bodies, ready to be divided, and the field if it has one."""
+class Body(NamedTuple):
+    """A body to divide: the name of what is made of it, the field that its curve follows if any, and its stages."""
+
+    name: str
+    prepared: Prepared
+    field: FieldWish | None
+    watch: Stopwatch
+
+
+def read_bodies(config: Config, *, name: str, progress: Callable[[str], None], store: Store) -> tuple[Body, ...]:
+    """Read what a config divides: one body of that name, or with `prepare.components = "each"` name-1 and so on."""
+    watch = Stopwatch(progress)
     watch.begin("read")
     prepare = config.prepare
     limits = ReadLimits(max_bytes=prepare.max_file_mb << 20, max_faces=prepare.max_faces)
     mesh = source_mesh(config.source, limits=limits)
     field = _field(config, limits)
     watch.begin("prepare")
-    return _bodies(mesh, config, store), field
+    found = _prepared(mesh, config, store)
+    watch.stop()
+    names = [name] if prepare.components != "each" else [f"{name}-{number}" for number in range(1, len(found) + 1)]
+    return tuple(Body(each, body, field, watch.copy()) for each, body in zip(names, found, strict=True))
 
 
-def _bodies(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, ...]:
+def _prepared(mesh: PolygonMesh, config: Config, store: Store) -> tuple[Prepared, ...]:
     prepare = config.prepare
     try:
         return prepared(mesh, repair=prepare.repair, components=prepare.components, crease=prepare.crease, store=store)
@@ -68,8 +81,9 @@ class Divided(NamedTuple):
     fitting: Affordable
 
 
-def divided(body: Prepared, config: Config, field: FieldWish | None, *, watch: Stopwatch, store: Store) -> Divided:
+def divided(named: Body, config: Config, *, store: Store) -> Divided:
     """Divide one body as a config asks: tiles, curve and cut."""
+    _, body, field, watch = named
     watch.begin("quads")
     wish, limit = tile_wish(config, body)
     whole = sized_surface(body.mesh, wish)

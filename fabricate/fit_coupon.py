@@ -8,17 +8,14 @@ from pathlib import Path
 from fabricate.checks.coupon_report import CouponReport, coupon_report_json
 from fabricate.checks.judged_coupon import judged_coupon
 from fabricate.config import Config, config_sha256, moved_config, resolved_toml
-from fabricate.design.field import FieldWish
-from fabricate.dividing import divided, read_bodies
+from fabricate.dividing import Body, divided, read_bodies
 from fabricate.making import made_solids
 from fabricate.output.coupon_files import write_coupon
 from fabricate.output.files import write_whole
 from fabricate.output.folder import checked_place, complete_folder
-from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES
 from fabricate.solid.coupon import coupon, coupon_clearances
-from fabricate.stopwatch import Stopwatch
 from fabricate.versions import program_versions
 from fabricate.wishes import joint_wish
 
@@ -38,33 +35,19 @@ def make_coupon(
     """
     checked_place(out / name)
     coupon_clearances(config.solid.clearance)
-    watch = Stopwatch(progress)
-    bodies, field = read_bodies(config, watch=watch, store=store)
-    if config.prepare.components != "each":
-        return (_coupon(bodies[0], config, field, name=name, out=out, watch=watch, store=store),)
-    return tuple(
-        _coupon(body, config, field, name=f"{name}-{number}", out=out, watch=watch.copy(), store=store)
-        for number, body in enumerate(bodies, start=1)
-    )
+    bodies = read_bodies(config, name=name, progress=progress, store=store)
+    return tuple(_coupon(body, config, out=out, store=store) for body in bodies)
 
 
-def _coupon(
-    body: Prepared,
-    config: Config,
-    field: FieldWish | None,
-    *,
-    name: str,
-    out: Path,
-    watch: Stopwatch,
-    store: Store,
-) -> CouponReport:
+def _coupon(body: Body, config: Config, *, out: Path, store: Store) -> CouponReport:
     """Make the coupon of one body."""
-    tiling = divided(body, config, field, watch=watch, store=store)
-    surface, clearance = tiling.fitting.surface, config.solid.clearance
+    name, watch = body.name, body.watch
+    found = divided(body, config, store=store)
+    surface, clearance = found.fitting.surface, config.solid.clearance
     watch.begin("solids")
     made = coupon(
         surface,
-        tiling.design.duotone.joined,
+        found.design.duotone.joined,
         lambda each: made_solids(surface, config, clearance=each),
         clearance=clearance,
         core=config.solid.core,

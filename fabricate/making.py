@@ -17,6 +17,7 @@ from fabricate.checks.measured import expectations
 from fabricate.checks.shop import polygons_wording
 from fabricate.config import Config
 from fabricate.dividing import Divided, divided_again, polygon_budget
+from fabricate.duotone.certificate import Certificate
 from fabricate.errors import SolidError
 from fabricate.process import PROCESSES
 from fabricate.solid.assembly import Assembly
@@ -35,9 +36,10 @@ STEP = 1.4
 
 
 class Made(NamedTuple):
-    """A divided body, its parts, and these with their stand and openings."""
+    """A divided body, what is proved of its curve, its parts, and these with their stand and openings."""
 
     divided: Divided
+    certificate: Certificate
     solids: Assembly
     ready: Finished
 
@@ -60,19 +62,20 @@ def made(found: Divided, config: Config) -> Made:
     SolidError
         If parts can't be made, or have too many triangles however coarsely the surface is divided.
     """
-    budget = polygon_budget(config)
-    parts = _made(found, config)
+    parts, shop, budget = _made(found, config), config.process.shop, polygon_budget(config)
+    if shop is None or budget is None:
+        return parts
     for _ in range(ROUNDS):
-        if budget is None or parts.largest <= budget:
+        if parts.largest <= budget:
             return parts
         added = parts.largest - largest_part(parts.surface, core=config.solid.core)
         tolerance = parts.divided.fitting.tolerance
         parts = _made(divided_again(found, config, tolerance=tolerance, budget=budget - added), config)
-    if budget is None or parts.largest <= budget:
+    if parts.largest <= budget:
         return parts
     raise SolidError(
         f"the largest part has {parts.largest} triangles with its stand and openings, and "
-        f"{_limit(config)}; ask for no stand and openings, or for a larger limit"
+        f"{polygons_wording(shop)}; ask for no stand and openings, or for a larger limit"
     )
 
 
@@ -93,7 +96,7 @@ def wanted(parts: Made, config: Config) -> Expectations:
     expected = expectations(
         surface,
         parts.solids,
-        cut_certificate(surface),
+        parts.certificate,
         clearance=solid.clearance,
         core=solid.core,
         tolerance=parts.divided.fitting.tolerance,
@@ -113,14 +116,14 @@ def check_fine_enough(parts: Made, config: Config, checks: tuple[Check, ...]) ->
     SolidError
         If parts of the same curve pass these checks when they are finer; says how many polygons that takes.
     """
-    failed = [check for check in checks if check.failed]
-    if not failed or parts.divided.fitting.tolerance <= config.solid.tolerance:
+    failed, shop = [check for check in checks if check.failed], config.process.shop
+    if shop is None or not failed or parts.divided.fitting.tolerance <= config.solid.tolerance:
         return
     enough = next((count for count, bad in _finer(parts, config) if not bad & {check.code for check in failed}), None)
     if enough is None:
         return
     raise SolidError(
-        f"{_limit(config)} triangles, and parts as coarse as that fail {failed[0].code}: "
+        f"{polygons_wording(shop)} triangles, and parts as coarse as that fail {failed[0].code}: "
         f"{failed[0].message.partition(';')[0]}; {enough} triangles would do: raise the limit to as many, or ask for a "
         "larger pattern.tile_size"
     )
@@ -141,8 +144,4 @@ def _finer(parts: Made, config: Config) -> Iterator[tuple[int, set[str]]]:
 def _made(found: Divided, config: Config) -> Made:
     surface = found.fitting.surface
     own = made_solids(surface, config, clearance=config.solid.clearance)
-    return Made(found, own, finished(surface, own, finish_wish(config)))
-
-
-def _limit(config: Config) -> str:
-    return "there is no limit" if config.process.shop is None else polygons_wording(config.process.shop)
+    return Made(found, cut_certificate(surface), own, finished(surface, own, finish_wish(config)))

@@ -17,14 +17,8 @@ from fabricate.checks.measured import chords, mesh_facts, pattern_facts
 from fabricate.checks.recheck import rechecked
 from fabricate.checks.report import Check, Report, report_json
 from fabricate.checks.share import share_checks
-from fabricate.config import (
-    Config,
-    config_sha256,
-    moved_config,
-    resolved_toml,
-)
-from fabricate.design.field import FieldWish
-from fabricate.dividing import divided, read_bodies
+from fabricate.config import Config, config_sha256, moved_config, resolved_toml
+from fabricate.dividing import Body, divided, read_bodies
 from fabricate.formats.reading import read_mesh
 from fabricate.making import check_fine_enough, made, wanted
 from fabricate.output.curve_svg import write_curve_svg
@@ -35,14 +29,11 @@ from fabricate.output.stl import write_stl
 from fabricate.picture.line_drawing import line_drawing
 from fabricate.picture.witness_marks import witness_marks
 from fabricate.prepare.inspection import Inspection, inspected
-from fabricate.prepare.prepared import Prepared
 from fabricate.prepare.store import NOTHING_KEPT, Store
 from fabricate.process import PROCESSES, Process
 from fabricate.solid.assembly import Assembly
 from fabricate.solid.wire import Wire, wire
-from fabricate.stopwatch import Stopwatch
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.cut_certificate import cut_certificate
 from fabricate.versions import program_versions
 
 
@@ -62,34 +53,19 @@ def run(
         bodies, nothing of the one that it is about.
     """
     checked_place(out / name)
-    watch = Stopwatch(progress)
-    bodies, field = read_bodies(config, watch=watch, store=store)
-    if config.prepare.components != "each":
-        return (_sculpture(bodies[0], config, field, name=name, out=out, watch=watch, store=store),)
-    return tuple(
-        _sculpture(body, config, field, name=f"{name}-{number}", out=out, watch=watch.copy(), store=store)
-        for number, body in enumerate(bodies, start=1)
-    )
+    bodies = read_bodies(config, name=name, progress=progress, store=store)
+    return tuple(_sculpture(body, config, out=out, store=store) for body in bodies)
 
 
-def _sculpture(
-    body: Prepared,
-    config: Config,
-    field: FieldWish | None,
-    *,
-    name: str,
-    out: Path,
-    watch: Stopwatch,
-    store: Store,
-) -> Report:
+def _sculpture(body: Body, config: Config, *, out: Path, store: Store) -> Report:
     """Make the parts of one body."""
+    name, watch = body.name, body.watch
     solid, process = config.solid, PROCESSES[config.process.name]
-    found = divided(body, config, field, watch=watch, store=store)
+    found = divided(body, config, store=store)
     watch.begin("solids")
     parts = made(found, config)
-    (tiling, limit, design, fitting), own, ready = parts
+    (tiling, limit, design, fitting), certificate, own, ready = parts
     duotone, surface, coarser = design.duotone, fitting.surface, fitting.tolerance > solid.tolerance
-    certificate = cut_certificate(surface)
     bent = _wire(surface, config)
     with complete_folder(out / name) as folder:
         watch.begin("files")
@@ -111,7 +87,7 @@ def _sculpture(
             config_sha256=config_sha256(config),
             versions=program_versions(),
             mesh=mesh_facts(
-                body,
+                body.prepared,
                 replace(tiling, notes=limit + tiling.notes),
                 surface,
                 chords(duotone, surface, asked=solid.tolerance) if coarser else None,

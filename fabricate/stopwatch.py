@@ -11,24 +11,33 @@ class Stopwatch:
 
     def __init__(self, progress: Callable[[str], None]) -> None:
         self._progress = progress
-        self._began: list[tuple[str, float]] = []
+        self._seconds: dict[str, float] = {}
+        self._running: tuple[str, float] | None = None
 
     def begin(self, stage: str) -> None:
-        """Tell of a stage that begins now."""
-        self._began.append((stage, perf_counter()))
+        """Tell of a stage that begins now, as the one before ends."""
+        self.stop()
+        self._running = stage, perf_counter()
         self._progress(stage)
 
     def tell(self, step: str) -> None:
         """Tell of a step within a stage."""
         self._progress(step)
 
+    def stop(self) -> None:
+        """End the stage that runs, if any does."""
+        if self._running is not None:
+            stage, began = self._running
+            self._seconds[stage] = perf_counter() - began
+            self._running = None
+
     def copy(self) -> Stopwatch:
-        """Return another watch that has run as long."""
+        """Return another watch that has seen the stages that have ended."""
         other = Stopwatch(self._progress)
-        other._began = list(self._began)
+        other._seconds = dict(self._seconds)
         return other
 
     def ended(self) -> dict[str, float]:
         """Return the seconds of every stage, the last one ending now."""
-        ends = [time for _, time in self._began[1:]] + [perf_counter()]
-        return {stage: end - start for (stage, start), end in zip(self._began, ends, strict=True)}
+        self.stop()
+        return dict(self._seconds)

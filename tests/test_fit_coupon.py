@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from small_ring import ring_config
 
 from fabricate import pipeline
 from fabricate.checks.coupon_report import CouponReport
@@ -14,21 +15,7 @@ from fabricate.config import load_config
 from fabricate.errors import FabricateError, SolidError
 from fabricate.fit_coupon import make_coupon
 
-CONFIG = """
-[source]
-shape = "torus"
-size = "60 mm"
-around = 8
-across = 4
-
-[pattern]
-tile_size = "12 mm"
-seed = 7
-
-[solid]
-thickness = "2 mm"
-tolerance = "0.3 mm"
-"""
+CONFIG = ring_config(tolerance="0.3 mm")
 
 
 def made(folder: Path, *overrides: str, name: str = "ring-coupon", text: str = CONFIG) -> tuple[CouponReport, ...]:

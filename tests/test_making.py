@@ -16,7 +16,6 @@ from fabricate.errors import SolidError
 from fabricate.making import Made, check_fine_enough, made, wanted
 from fabricate.prepare.store import NOTHING_KEPT
 from fabricate.solid.polygon_budget import largest_part
-from fabricate.stopwatch import Stopwatch
 
 TOO_WIDE = Check("fit.gap_max", ok=False, message="the gap is too wide; do something")
 
@@ -30,9 +29,8 @@ def config(rest: str = "") -> Config:
 
 
 def parts_of(asked: Config) -> Made:
-    watch = Stopwatch(lambda _: None)
-    (body,), field = read_bodies(asked, watch=watch, store=NOTHING_KEPT)
-    return made(divided(body, asked, field, watch=watch, store=NOTHING_KEPT), asked)
+    (body,) = read_bodies(asked, name="ball", progress=lambda _: None, store=NOTHING_KEPT)
+    return made(divided(body, asked, store=NOTHING_KEPT), asked)
 
 
 def test_a_stand_is_counted() -> None:

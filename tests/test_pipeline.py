@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from mesh_bytes import ply_with_values
+from small_ring import ring_config
 
 from fabricate import dividing, pipeline
 from fabricate.checks.report import Report
@@ -30,21 +31,7 @@ from fabricate.mesh.torus import torus
 from fabricate.output.stl import TRIANGLE
 from fabricate.surface.tile_places import TilePlaces
 
-CONFIG = """
-[source]
-shape = "torus"
-size = "60 mm"
-around = 8
-across = 4
-
-[pattern]
-tile_size = "12 mm"
-seed = 7
-
-[solid]
-thickness = "2 mm"
-tolerance = "0.15 mm"
-"""
+CONFIG = ring_config(tolerance="0.15 mm")
 FILES = {
     *("yellow.stl", "blue.stl", "pair.3mf", "preview.png", "preview.glb"),
     *("curve.ply", "report.json", "config.toml"),
@@ -52,6 +39,7 @@ FILES = {
 CONFIGS = sorted((Path(__file__).parents[1] / "configs").rglob("*.toml"))
 ROUGH = ("pattern.tile_size=14mm", "solid.tolerance=0.4mm")
 FRAME = ("pattern.tile_size=10mm", "solid.tolerance=0.15mm")
+WIDE = {"cells-hexagons", "cells-triangles", "genus-6", "genus-six", "long-tiles", "shared-handles"}
 COARSE = {
     **dict.fromkeys(("double-torus", "triple-torus", "genus-6"), FRAME),
     **dict.fromkeys(("genus-two", "genus-three", "genus-six"), FRAME),
@@ -460,9 +448,12 @@ def test_a_field_of_the_file_and_locks_make_a_pair(tmp_path: Path, monkeypatch: 
     assert np.corrcoef(field_weights(quads, wish.field, seed=0), heights)[0, 1] > 0.97
 
 
-def failed(report: Report, *, with_printability: bool) -> list[str]:
-    """Return the sentences of failed checks; walls, necks and the widest gap are for the intended sizes only."""
-    of_the_process = (".wall", ".neck", "pattern.band", "fit.process_gap", ".gap_max")
+def failed(report: Report, *, with_printability: bool, wide: bool = False) -> list[str]:
+    """Return the sentences of failed checks; walls and necks are for the intended tile size only.
+
+    Where tiles are uneven or bend sharply, the gap is `wide` in places unless the triangles are small.
+    """
+    of_the_process = (".wall", ".neck", "pattern.band", "fit.process_gap", *([".gap_max"] if wide else []))
     return [
         check.message
         for check in report.checks
@@ -475,7 +466,7 @@ def failed(report: Report, *, with_printability: bool) -> list[str]:
 def test_every_config_makes_a_sound_pair(path: Path, tmp_path: Path) -> None:
     """At low resolution: topology and fit have to hold, walls and necks need not be printable."""
     report = run(path, tmp_path, *COARSE.get(path.stem, ROUGH))
-    assert not failed(report, with_printability=False)
+    assert not failed(report, with_printability=False, wide=path.stem in WIDE)
     assert report.pattern is not None
     config = load_config(path)
     curves = len(config.pattern.positions)

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from small_ring import ring_config
 
 from fabricate import pipeline
 from fabricate.config import load_config
@@ -19,20 +20,7 @@ from fabricate.fit_coupon import make_coupon
 
 pytestmark = pytest.mark.slicer
 
-CONFIG = """
-[source]
-shape = "torus"
-size = "60 mm"
-around = 8
-across = 4
-
-[pattern]
-tile_size = "12 mm"
-
-[solid]
-thickness = "2 mm"
-tolerance = "0.3 mm"
-"""
+CONFIG = ring_config(tolerance="0.3 mm")
 REPAIRS = ("open_edges", "facets_reversed", "facets_removed", "facets_added", "edges_fixed", "backwards_edges")
 PARTS = ("yellow", "blue")
 

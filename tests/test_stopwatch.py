@@ -22,7 +22,9 @@ def test_each_stage_is_told_and_ends_where_the_next_begins() -> None:
 def test_a_copy_goes_on_alone() -> None:
     watch = Stopwatch(lambda _: None)
     watch.begin("read")
+    watch.stop()
     other = watch.copy()
     other.begin("cut")
     assert list(watch.ended()) == ["read"]
     assert list(other.ended()) == ["read", "cut"]
+    assert other.ended()["read"] == watch.ended()["read"]

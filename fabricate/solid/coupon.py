@@ -30,8 +30,8 @@ from fabricate.solid.coupon_window import CouponWindow, widest_window
 from fabricate.solid.joint import STRAIGHT, Joint, fitted_joint
 from fabricate.solid.lettering import raised_text, text_width
 from fabricate.solid.part import Part, joined
+from fabricate.solid.sound_turn import TURNS, is_sound
 from fabricate.surface.cut import CutSurface
-from fabricate.triangles.crossing import crossing_triangles
 
 STEPS = (-2, -1, 0, 1, 2)
 """The clearances, in steps from that of the sculpture."""
@@ -59,9 +59,6 @@ PLATE, BAR = 1.2, 3.0
 
 DIGITS, STROKE, RAISED = 6.0, 1.0, 0.6
 """Height of digits, width of their strokes, and how high they stand above the plate, mm."""
-
-TURNS = (0.0, 3.0, 5.0, 7.0)
-"""By how many degrees round cuts are turned, one after the other, until rounded to float32 no triangles cross."""
 
 TOLERANCE = 0.05
 """Chord error of round cuts, mm."""
@@ -175,8 +172,8 @@ def coupon(
     Raises
     ------
     SolidError
-        If the clearance is 0, the solids cannot be made with the largest one, or the surface is nowhere flat enough
-        for a piece with a flat back.
+        If the clearance is 0, the solids cannot be made with the largest one, the surface is nowhere flat enough for a
+        piece with a flat back, or round cuts leave no sound piece.
     """
     clearances = coupon_clearances(clearance)
     inner = make(clearances[-1]).inner
@@ -190,10 +187,7 @@ def coupon(
         [_cropped(solids, window, plan.middle(row, column)) for row, window in enumerate(windows)]
         for column, solids in enumerate(map(_solids, made))
     ]
-    for turn in TURNS:
-        plate, inserts = _put_together(plan, crops, turn=turn)
-        if not any(len(crossing_triangles(part.points, part.triangles)) for part in (plate, *inserts)):
-            break
+    plate, inserts = _put_together_soundly(plan, crops)
     pieces = tuple(
         CouponPiece(clearances[k // 2], windows[k % 2], plan.middle(k % 2, k // 2), part)
         for k, part in enumerate(inserts)
@@ -286,6 +280,18 @@ def _cropped(solids: Sequence[Manifold], window: CouponWindow, middle: Floats) -
     crop = bar(beyond, tolerance=TOLERANCE)
     move = np.column_stack([window.axes, window.seen(np.zeros((1, 3)))[0] + [*middle, 0.0]])
     return [(solid ^ crop).transform(move) for solid in solids]
+
+
+def _put_together_soundly(plan: _Plan, crops: Sequence[Sequence[Sequence[Manifold]]]) -> tuple[Part, list[Part]]:
+    """Return the plate and what is loose in it, with round cuts at the first turn that leaves everything sound."""
+    for turn in TURNS:
+        plate, inserts = _put_together(plan, crops, turn=turn)
+        if all(map(is_sound, (plate, *inserts))):
+            return plate, inserts
+    raise SolidError(
+        f"round cuts leave triangles of the coupon that cross or have no area once coordinates are rounded, at each of "
+        f"{len(TURNS)} turns tried; ask for another solid.clearance or pattern.seed"
+    )
 
 
 def _put_together(

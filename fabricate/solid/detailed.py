@@ -10,7 +10,6 @@ import numpy as np
 from fabricate.duotone.duotone import Duotone
 from fabricate.prepare.triangle_mesh import TriangleMesh
 from fabricate.solid.settling import settled
-from fabricate.solid.thick_enough import check_thick
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.detail import carried
 from fabricate.surface.detail_resolution import detail_resolution
@@ -35,10 +34,8 @@ def detailed_cut(
     PatternError
         If the rings are out of range or do not increase, or the tolerance would need too many triangles.
     SolidError
-        If the clearance does not fit, most of the body is thinner than that, or the smooth surface crosses itself
-        beyond mending.
+        If the clearance does not fit, or the smooth surface crosses itself beyond mending.
     """
-    check_thick(onto.points, onto.triangles, clearance=clearance)
     side = typical_side(duotone.quads)
     resolution = max(
         resolution_for(

@@ -24,6 +24,7 @@ import numpy as np
 from scipy.ndimage import minimum_filter1d
 
 from fabricate.arrays import Floats, Indices, Mask
+from fabricate.config.solid_config import WIDEST_TONGUE
 from fabricate.errors import SolidError
 from fabricate.solid.clearance import SMOOTHING, half_length, smoothed
 from fabricate.solid.layers import Layer
@@ -37,9 +38,6 @@ RIDGE = ((-0.5, 0.0), (-0.2, 0.76), (0.0, 1.0), (0.2, 0.76), (0.5, 0.0))
 
 _SLOPES = np.diff(np.array(RIDGE)[:, 1]) / np.diff(np.array(RIDGE)[:, 0])
 _SIDE = float(np.abs(_SLOPES).max())
-
-MOST_WIDE = 0.8
-"""Largest width of a ridge, as a share of the wall's thickness."""
 
 OWN_WIDTH = (0.6, 0.75)
 """Width of a ridge for which none is asked, as a share of the wall's thickness, from a low one to a tall one."""
@@ -152,7 +150,7 @@ def _fitted_tongue(surface: CutSurface, inner: Floats, joint: Joint, *, thicknes
     least, most = OWN_WIDTH
     own_width = float(np.clip(own * _SIDE / np.tan(STEEPEST), least * thickness, most * thickness))
     width = own_width if joint.width is None else joint.width
-    widest = MOST_WIDE * thickness
+    widest = WIDEST_TONGUE * thickness
     if width > widest:
         raise SolidError(
             f"a tongue {width:g} mm wide does not fit into a wall of {thickness:g} mm; the largest solid.tongue.width "
@@ -249,7 +247,7 @@ def _places(
     places = []
     for curve, beside, limit in zip(surface.curves, _all_beside(surface, middle), limits, strict=True):
         depth = np.linalg.norm(under[curve] - outer[curve], axis=1)
-        width = np.minimum(widest, MOST_WIDE * depth)
+        width = np.minimum(widest, WIDEST_TONGUE * depth)
         down = unit(under[curve] - outer[curve])
         lips = ((above[curve], down), (-below[curve], -down))
         steepest = np.min([_steepest(*lip, beside.way) for lip in lips], axis=0)

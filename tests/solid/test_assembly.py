@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from small_ring import CLEARANCE, ring_surface
 
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.mesh.torus import torus
@@ -13,14 +14,13 @@ from fabricate.solid.settling import fitted_cut
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.sizing import sized, tiled
 
-THICKNESS, CLEARANCE = 2.0, 0.3
+THICKNESS = 2.0
 CORES: tuple[Core, ...] = ("hollow", "yellow", "blue")
 
 
 @pytest.fixture(scope="module")
 def surface() -> CutSurface:
-    quads = tiled(sized(torus(around=8, across=4, tube=0.45), size=60), tile_size=12)
-    return fitted_cut(grown_duotone(quads, tree="random", seed=3), tolerance=0.4, clearance=CLEARANCE)
+    return ring_surface()
 
 
 def built(surface: CutSurface, *, clearance: float = CLEARANCE, core: Core = "hollow") -> Assembly:

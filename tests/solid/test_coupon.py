@@ -24,6 +24,7 @@ from fabricate.solid.coupon import (
 from fabricate.solid.coupon_places import Kind
 from fabricate.solid.lettering import raised_text, text_width
 from fabricate.solid.part import Part
+from fabricate.solid.sound_turn import TURNS
 from fabricate.surface.neck import tile_necks
 from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.normals import area_vectors, unit
@@ -160,3 +161,17 @@ def test_where_no_wall_is_thick_enough_it_is_said() -> None:
     ring = subject("ring")
     with pytest.raises(SolidError, match="flat enough"):
         coupon(ring.surface, ring.joined, ring.solids, clearance=CLEARANCE, core=ring.core, wall=3.0)
+
+
+def test_a_coupon_that_no_turn_leaves_sound_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried_turns = []
+
+    def unsound(_: Part) -> bool:
+        tried_turns.append(1)
+        return False
+
+    monkeypatch.setattr("fabricate.solid.coupon.is_sound", unsound)
+    of = subject("ring")
+    with pytest.raises(SolidError, match=r"ask for another solid.clearance"):
+        coupon(of.surface, of.joined, of.solids, clearance=CLEARANCE, core=of.core, wall=WALL)
+    assert len(tried_turns) == len(TURNS)

@@ -6,29 +6,25 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from small_ring import CLEARANCE, ring_surface
 
 from fabricate.arrays import Mask
-from fabricate.duotone.spanning_tree import grown_duotone
-from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Assembly, Core, assembly, core_region
 from fabricate.solid.faults import crossing_points, near_points
 from fabricate.solid.joint import STRAIGHT, Joint
 from fabricate.solid.retreat import LAST, RINGS, SAFE_DEPTH, Retreat, receded, stepping
-from fabricate.solid.settling import fitted_cut
 from fabricate.solid.spacing import outer_copies
 from fabricate.surface.cut import CutSurface
-from fabricate.surface.sizing import sized, tiled
 from fabricate.triangles.adjacency import grown, neighbour_means
 from fabricate.triangles.search_tree import SearchTree
 
-THICKNESS, CLEARANCE = 2.0, 0.3
+THICKNESS = 2.0
 CORES: tuple[Core, ...] = ("hollow", "yellow", "blue")
 
 
 @pytest.fixture(scope="module")
 def surface() -> CutSurface:
-    quads = tiled(sized(torus(around=8, across=4, tube=0.45), size=60), tile_size=12)
-    return fitted_cut(grown_duotone(quads, tree="random", seed=3), tolerance=0.4, clearance=CLEARANCE)
+    return ring_surface()
 
 
 def retreat_of(
