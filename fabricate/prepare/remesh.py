@@ -27,6 +27,11 @@ Cells: TypeAlias = Literal["quads", "triangles", "hexagons"]
 MOST_TILES = 250_000
 """More tiles than this take minutes to remesh."""
 
+TILES_OF_HANDLE = 24
+"""Fewest tiles, on average, for each handle. Of the tightest lattice of square bars, as long as they are wide, every
+joint has two handles and 12 squares, which become 48 tiles; with fewer tiles a point is in more than six of the cells.
+"""
+
 TOLERANCE = 0.15
 """Share by which the median tile side may miss what was asked for."""
 
@@ -125,14 +130,16 @@ def remeshed(
     MeshError
         If the mesh is not one closed surface.
     PrepareError
-        If the tile size is not positive, larger than the body, or so small that there would be too many tiles;
-        or if a surface comes out that is not closed or has another genus.
+        If the tile size is not positive, larger than the body, so small that there would be too many tiles, or so
+        large that there would be too few for the handles; or if a surface comes out that is not closed or has
+        another genus.
     """
     mesh = checked_closed(mesh)
-    triangles = fanned(mesh)
+    triangles, handles = fanned(mesh), genus(mesh)
     _check_tile_size(triangles, tile_size)
+    _check_handles(triangles, handles, tile_size)
     progress("sampling the surface")
-    task = _Task(_fine(triangles, tile_size, seed), genus(mesh), tile_size, seed, progress)
+    task = _Task(_fine(triangles, tile_size, seed), handles, tile_size, seed, progress)
     made = _quads(task) if cells == "quads" else Remeshed(_triangular(task, cells), ())
     found = _checked(task, made.mesh)
     if crease is not None and cells == "triangles":
@@ -152,6 +159,19 @@ def _check_tile_size(mesh: TriangleMesh, tile_size: float) -> None:
         raise PrepareError(
             f"tiles of {tile_size:g} mm would be about {tiles:.0f}, and at most {MOST_TILES} can be remeshed; "
             "ask for a larger pattern.tile_size"
+        )
+
+
+def _check_handles(mesh: TriangleMesh, handles: int, tile_size: float) -> None:
+    fewest = TILES_OF_HANDLE * (handles - 1)
+    if mesh.area < fewest * tile_size**2:
+        extent = float(np.ptp(mesh.points, axis=0).max())
+        largest = float(np.sqrt(mesh.area / fewest))
+        raise PrepareError(
+            f"a surface with {handles} handles needs at least {fewest} tiles, and with tiles of {tile_size:.3g} mm "
+            f"there is room for {mesh.area / tile_size**2:.0f} on a body of {extent:.4g} mm: ask for a source.size of "
+            f"at least {np.ceil(extent * tile_size / largest):.0f} mm, or a pattern.tile_size of at most "
+            f"{0.995 * largest:.3g} mm"
         )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import get_args
 
@@ -15,7 +16,7 @@ from fabricate.formats.reading import read_mesh
 from fabricate.mesh.closed import checked_closed, genus, signed_volume
 from fabricate.mesh.cube import cube
 from fabricate.mesh.knot import trefoil
-from fabricate.mesh.pierced import double_torus
+from fabricate.mesh.pierced import double_torus, genus_six
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
@@ -169,6 +170,17 @@ def test_tile_sizes_that_make_no_sense(tile_size: float) -> None:
 def test_more_tiles_than_can_be_remeshed() -> None:
     with pytest.raises(PrepareError, match="would be about 3840000, and at most 250000"):
         remeshed(cube(divisions=1).scaled(80.0 / 2.0), cells="quads", tile_size=0.1, seed=1)
+
+
+def test_fewer_tiles_than_handles_need_are_refused_with_sizes_that_do() -> None:
+    frame = genus_six().scaled(20.0)
+    side = float(np.sqrt(fanned(frame).area / 110.0))
+    with pytest.raises(PrepareError, match=r"6 handles needs at least 120 tiles, .* is room for 110 on") as refused:
+        remeshed(frame, cells="triangles", tile_size=side, seed=1)
+    size, tile_size = re.findall(r"at (?:least|most) ([\d.]+) mm", str(refused.value))
+    extent = float(np.ptp(frame.points, axis=0).max())
+    for mesh, asked in ((frame.scaled(float(size) / extent), side), (frame, float(tile_size))):
+        assert genus(remeshed(mesh, cells="triangles", tile_size=asked, seed=1).mesh) == 6
 
 
 def test_an_open_surface_is_an_error() -> None:
