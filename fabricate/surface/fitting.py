@@ -14,12 +14,14 @@ from scipy.sparse import csr_array
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.duotone.catmull_clark import Subdivision, catmull_clark
 from fabricate.duotone.quad_mesh import QuadMesh
+from fabricate.errors import SolidError
 from fabricate.surface.embedding import Embedding, Faulty, stored
 from fabricate.surface.limit import limit_vertices
 from fabricate.surface.smoothing import steadied
 from fabricate.surface.stepping import stepped, untangled
 from fabricate.surface.target import Target
 from fabricate.triangles.adjacency import grown, neighbour_distances, neighbour_means
+from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.normals import vertex_normals
 
 SCHEDULE = (4, 4, 3, 3, 2, 2, 1, 1, 1, 0, 0, 0)
@@ -45,7 +47,7 @@ def fitted(quads: QuadMesh, onto_points: Floats, onto_triangles: Indices) -> Qua
     Raises
     ------
     SolidError
-        If the limit surface of `quads` crosses itself already, and relaxing does not help.
+        If the limit surface of `quads` crosses itself already, and relaxing does not help; says if the target does.
     """
     target = Target.of(onto_points, onto_triangles)
     reach = REACH * float(np.linalg.norm(np.ptp(onto_points, axis=0)))
@@ -53,7 +55,10 @@ def fitted(quads: QuadMesh, onto_points: Floats, onto_triangles: Indices) -> Qua
     everywhere = np.ones(len(quads.points), dtype=bool)
     points = _drawn(quads, shape, target, reach=reach)
     if shape.crossed(points, everywhere).any():
-        start = untangled(quads.points, _means(quads), shape.crossed)
+        try:
+            start = untangled(quads.points, _means(quads), shape.crossed)
+        except SolidError as error:
+            raise SolidError(f"{error}{_crossings(onto_points, onto_triangles)}") from None
         points = _drawn(replace(quads, points=start), shape, target, reach=reach)
     return replace(quads, points=points)
 
@@ -71,6 +76,18 @@ def _drawn(quads: QuadMesh, shape: _LimitShape, target: Target, *, reach: float)
         points = stepped(points, points + move, means, _but_for(tangled, shape.faults_since(points)))
         tangled &= shape.crossed(points, tangled)
     return points
+
+
+def _crossings(points: Floats, triangles: Indices) -> str:
+    """Return what has to be said if a target crosses itself, as no cells on it can be mended then, or nothing."""
+    pairs = crossing_triangles(points, triangles)
+    if not len(pairs):
+        return ""
+    x, y, z = points[triangles[pairs[0, 0]]].mean(axis=0)
+    return (
+        f"; the mesh crosses itself, too, {len(pairs)} pairs of its triangles do, one at ({x:.2f}, {y:.2f}, {z:.2f}) "
+        'mm: prepare.repair = "wrap" puts a new skin round it'
+    )
 
 
 def _but_for(exempt: Mask, faulty: Faulty) -> Faulty:

@@ -16,6 +16,8 @@ from fabricate.mesh.cube import cube
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
+from fabricate.prepare.triangle_mesh import fanned
+from fabricate.surface import fitting
 from fabricate.surface.cut import CutSurface, cut
 from fabricate.surface.deviation import Deviation, deviation
 from fabricate.surface.fitting import fitted
@@ -100,6 +102,19 @@ def test_a_limit_that_crosses_itself_is_undone_or_refused() -> None:
         assert "crosses itself" in str(error)  # noqa: PT017
     else:
         assert len(crossing_triangles(made.points, made.triangles)) == 0
+
+
+@pytest.mark.parametrize("crosses", [True, False])
+def test_a_refusal_says_whether_the_target_crosses_itself(crosses: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise SolidError("no way")
+
+    monkeypatch.setattr(fitting, "untangled", refuse)
+    bow, ball = fanned(crossing_bow()), trimesh.creation.icosphere(subdivisions=3)
+    onto = trimesh.Trimesh(bow.points, bow.triangles, process=False) if crosses else ball
+    said = '^no way; the mesh crosses itself, too, .* prepare.repair = "wrap"' if crosses else "^no way$"
+    with pytest.raises(SolidError, match=said):
+        fitted_to(subdivided(crossing_bow(), levels=1), onto)
 
 
 def test_a_limit_that_crosses_itself_where_it_misses_its_target_is_drawn_out_of_itself() -> None:
