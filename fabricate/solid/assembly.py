@@ -16,7 +16,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from fabricate.arrays import Floats, Indices, frozen
+from fabricate.arrays import Floats, Indices, Mask, frozen
 from fabricate.region_names import region_names
 from fabricate.solid.facing import mid_lines
 from fabricate.solid.joint import STRAIGHT, Joint, asides, ridges
@@ -81,6 +81,12 @@ class Assembly:
         """(n, 3) float: the inner side of the uncut wall under each point of the surface, mm."""
         block = 2 * len(self.bodies) + 1 if len(self.gap) else 1
         return self.points[block * self.surface_points : (block + 1) * self.surface_points]
+
+    def moved_since(self, before: Assembly) -> Mask:
+        """Return the surface points, (n,) bool, of which a copy lies elsewhere than in an assembly of the same make."""
+        moved = (self.points != before.points).any(axis=1).reshape(-1, self.surface_points)
+        anywhere: Mask = moved.any(axis=0)
+        return anywhere
 
     def walls(self, curve: Indices, region: int) -> Floats:
         """Return the facing walls along a curve, (c,) int, of a region and of the next one, (2, l, c, 3) mm.

@@ -7,6 +7,7 @@ the plane by far less than anything that can be printed or measured, but by more
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from fabricate.arrays import Floats, Indices, Mask
 from fabricate.solid.assembly import Assembly
 from fabricate.surface.embedding import stored
 from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.nearby import triangles_near
 from fabricate.triangles.normals import area_vectors, unit
 
 REACH = 1e-5
@@ -48,7 +50,8 @@ def dithered(made: Assembly) -> Assembly:
     if not chosen.any():
         return made
     moved = replace(made, points=stored(made.points + REACH * chosen[:, None] * _noise(len(made.points))))
-    return made if _crossings(moved) > _crossings(made) else moved
+    near = [body[triangles_near(made.points, body, chosen, reach=2.0 * REACH)] for body in made.bodies]
+    return made if _crossings(moved, near) > _crossings(made, near) else moved
 
 
 def _in_slanting_planes(points: Floats, triangles: Indices) -> Mask:
@@ -76,5 +79,6 @@ def _noise(count: int) -> Floats:
     return noise
 
 
-def _crossings(made: Assembly) -> int:
-    return sum(len(crossing_triangles(made.points, triangles)) for triangles in made.bodies)
+def _crossings(made: Assembly, near: Sequence[Indices]) -> int:
+    """Return how many pairs of triangles cross among some of each body's, (k, 3) int."""
+    return sum(len(crossing_triangles(made.points, triangles)) for triangles in near)

@@ -161,16 +161,16 @@ def stepping(faulty: Mask, means: csr_array) -> Floats:
     return weight
 
 
-def receded(retreat: Retreat, faults: Callable[[Assembly, Mask], Mask], means: csr_array) -> Assembly:
+def receded(retreat: Retreat, faults: Callable[[Assembly, Mask], Mask], means: csr_array, *, faulty: Mask) -> Assembly:
     """Return the assembly with inner points gone back as far as it takes until nothing is faulty.
 
     `faults` tells of an assembly which surface points something is wrong at, looking near those that moved, (n,) bool
-    both. What is still wrong at the end of all paths is wrong with the surface itself.
+    both; at first it is at the `faulty` ones. What is still wrong at the end of all paths is wrong with the surface
+    itself.
     """
     made, steps = retreat.proposed, np.zeros(retreat.proposed.surface_points)
-    faulty = faults(made, np.ones(len(steps), dtype=bool))
     while (steps[faulty] < LAST).any():
         steps = np.minimum(steps + stepping(faulty & (steps < LAST), means), LAST)
         before, made = made, retreat.after(steps)
-        faulty = faults(made, (_blocks(made) != _blocks(before)).any(axis=(0, 2)))
+        faulty = faults(made, made.moved_since(before))
     return made

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 
 RELAXINGS = 4
-"""How often faults are relaxed before what is left retreats."""
+"""How often faults are relaxed, as long as they become fewer, before what is left retreats."""
 
 CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
@@ -57,22 +58,35 @@ def solids(
     inner = surface.base + depth[:, None] * down
     fitted = fitted_joint(surface, inner, joint, thickness=thinnest, clearance=clearance)
     means = neighbour_means(surface.triangles, count=len(surface.points))
-    moved: Mask = np.ones(len(inner), dtype=bool)
-    for _ in range(RELAXINGS):
+
+    def tested(inner: Floats, before: _Tested | None) -> _Tested:
         made = assembly(surface, inner, clearance=clearance, core=core, joint=fitted)
-        faulty = _faults(made, moved, clearance=clearance)
-        if not faulty.any() and not moved.all():
-            faulty = _faults(made, np.ones_like(moved), clearance=clearance)
-        if not faulty.any():
-            return dithered(made)
-        mended = relaxed(surface, spread(surface, inner, faulty, means), faulty, means)
-        moved = (mended != inner).any(axis=1)
-        inner = mended
-    made = assembly(surface, inner, clearance=clearance, core=core, joint=fitted)
-    keeper = core_region(core, regions=len(made.bodies))
+        moved = np.ones(len(inner), dtype=bool) if before is None else made.moved_since(before.made) | before.faulty
+        return _Tested(inner, made, _faults(made, moved, clearance=clearance))
+
+    best = last = tested(inner, None)
+    for _ in range(RELAXINGS):
+        if not best.faulty.any():
+            return dithered(best.made)
+        slid = spread(surface, last.inner, last.faulty, means)
+        last = tested(relaxed(surface, slid, last.faulty, means), last)
+        if last.faulty.sum() >= best.faulty.sum():
+            break
+        best = last
+    if not best.faulty.any():
+        return dithered(best.made)
+    keeper = core_region(core, regions=len(best.made.bodies))
     copies = outer_copies(surface, clearance=clearance) if clearance > 0.0 else (surface.points,)
-    retreat = Retreat.of(surface, made, copies, thickness=thinnest, keeper=keeper)
-    return dithered(receded(retreat, partial(_faults, clearance=clearance), means))
+    retreat = Retreat.of(surface, best.made, copies, thickness=thinnest, keeper=keeper)
+    return dithered(receded(retreat, partial(_faults, clearance=clearance), means, faulty=best.faulty))
+
+
+class _Tested(NamedTuple):
+    """Inner points, (n, 3) mm, what is made of them, and the surface points where that is faulty, (n,) bool."""
+
+    inner: Floats
+    made: Assembly
+    faulty: Mask
 
 
 def _faults(made: Assembly, moved: Mask, *, clearance: float) -> Mask:

@@ -15,7 +15,7 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.solid.clearance import Shares
-from fabricate.solid.facing import middle_gaps, wall_gaps
+from fabricate.solid.facing import WallGaps, middle_gaps
 from fabricate.solid.floor import floor_drop, lowered
 from fabricate.solid.joint import Joint, asides, gently, ridges
 from fabricate.solid.layers import Layer, layer, layer_shares, shares_aside, shares_near
@@ -110,28 +110,40 @@ def wall_layers(
     a core nothing is drawn together: its floor would come too near.
     """
     task = _Task(surface=surface, inner=inner, clearance=clearance, keeper=keeper, joint=joint)
-    moves, shares, layers = _moved_apart(task)
+    moves, shares, layers, measured = _moved_apart(task)
     for _ in range(DRAWINGS if keeper is None else 0):
         wide = _widened(_middle_gaps(surface, layers)) / clearance
         if not (wide > WIDE).any():
             break
-        least = -_widened(-_wall_gaps(surface, layers, keeper)) / clearance
+        measured = _measured(surface, layers, keeper, measured)
+        least = -_widened(-_smallest(measured)) / clearance
         moves = _drawn_together(moves, wide, least)
         layers = _laid(task, shares, moves)
     return layers
 
 
-def _moved_apart(task: _Task) -> tuple[_Moves, list[tuple[Shares, ...]], WallLayers]:
-    """Return walls nowhere nearer than the clearance, if they can be, and how their copies and joints have moved."""
+class _Apart(NamedTuple):
+    """How copies and joints have moved, before they are drawn together, and the walls that this makes, measured."""
+
+    moves: _Moves
+    shares: list[tuple[Shares, ...]]
+    layers: WallLayers
+    measured: list[WallGaps]
+
+
+def _moved_apart(task: _Task) -> _Apart:
+    """Return walls nowhere nearer than the clearance, if they can be."""
     surface, clearance, keeper = task.surface, task.clearance, task.keeper
     full = np.ones(surface.curves.shape)
     drop = floor_drop(task.inner, surface.triangles, task.down, clearance=clearance)
     moves = _Moves(clearance * full, full, full, drop)
     easings = EASINGS[task.joint.kind]
+    measured: list[WallGaps] = []
     for step in range(easings + CORRECTIONS):
         shares = _shares(task, moves)
         layers = _laid(task, shares, moves)
-        missing = clearance / np.maximum(_wall_gaps(surface, layers, keeper), 1e-9)
+        measured = _measured(surface, layers, keeper, measured)
+        missing = clearance / np.maximum(_smallest(measured), 1e-9)
         drop = (
             moves.drop if keeper is None else _deeper(surface, layers, moves.drop, keeper=keeper, clearance=clearance)
         )
@@ -141,7 +153,7 @@ def _moved_apart(task: _Task) -> tuple[_Moves, list[tuple[Shares, ...]], WallLay
         ease = EASED[task.joint.kind] if step < easings else np.inf
         wanted = moves.wanted * np.clip(_widened(missing), 1.0, min(MOST_ADDED, ease))
         moves = _Moves(wanted, _eased(moves.size, missing > ease), full, drop)
-    return moves, shares, layers
+    return _Apart(moves, shares, layers, measured)
 
 
 def _shares(task: _Task, moves: _Moves) -> list[tuple[Shares, ...]]:
@@ -205,14 +217,23 @@ def _deeper(surface: CutSurface, layers: WallLayers, drop: Floats, *, keeper: in
     return deeper
 
 
-def _wall_gaps(surface: CutSurface, layers: WallLayers, keeper: int | None) -> Floats:
-    """Return how far apart the walls are beside each curve point, (k, c); only a core's goes down to the floor."""
+def _measured(
+    surface: CutSurface, layers: WallLayers, keeper: int | None, before: Sequence[WallGaps]
+) -> list[WallGaps]:
+    """Measure the walls along each curve, where they moved if they were before; only a core's goes to the floor."""
 
     def wall_edges(region: int, curve: Indices) -> list[Floats]:
         return [each.copies[region][curve] for each in layers.down(to_floor=region == keeper)]
 
     sides = [(wall_edges(number, curve), wall_edges(number + 1, curve)) for number, curve in enumerate(surface.curves)]
-    return np.stack([wall_gaps(left, right) for left, right in sides])
+    if not before:
+        return [WallGaps.of(*walls) for walls in sides]
+    return [found.again(*walls) for found, walls in zip(before, sides, strict=True)]
+
+
+def _smallest(measured: list[WallGaps]) -> Floats:
+    """Return how far apart the walls are beside each curve point, (k, c) mm."""
+    return np.stack([each.gaps for each in measured])
 
 
 def _middle_gaps(surface: CutSurface, layers: WallLayers) -> Floats:

@@ -163,3 +163,14 @@ def test_joint_faces_are_all_that_is_neither_outside_nor_inside(multitone: CutSu
         whole = {tuple(triangle) for triangle in np.sort(body, axis=1).tolist()}
         assert faces < whole
         assert len(whole) - len(faces) == 2 * (multitone.regions == region).sum()
+
+
+def test_points_have_moved_since_where_a_copy_lies_elsewhere(surface: CutSurface) -> None:
+    inner = surface.points - 2.0 * surface.normals
+    before = assembly(surface, inner, clearance=CLEARANCE, core="hollow")
+    assert not before.moved_since(before).any()
+    far = int(surface.half_rays[0].left[0, -1])
+    inner[far] -= 0.1 * surface.normals[far]
+    moved = assembly(surface, inner, clearance=CLEARANCE, core="hollow").moved_since(before)
+    assert moved[far]
+    assert not moved.all()

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 from fabricate.arrays import Floats
-from fabricate.solid.facing import mid_lines, middle_gaps, wall_gaps
+from fabricate.solid.facing import WallGaps, mid_lines, middle_gaps
 from fabricate.solid.layers import wall
 
 SIDES = 24
@@ -16,6 +16,10 @@ TURN = np.arange(SIDES) * (2 * np.pi / SIDES)
 RING = np.stack([np.cos(TURN), np.sin(TURN), np.zeros(SIDES)], axis=1)
 CURVE = np.arange(SIDES)
 DOWN = np.array([0.0, 0.0, 2.0])
+
+
+def wall_gaps(left: list[Floats], right: list[Floats]) -> Floats:
+    return WallGaps.of(left, right).gaps
 
 
 def prisms(*, inner: float, outer: float) -> tuple[list[Floats], list[Floats]]:
@@ -59,6 +63,36 @@ def test_no_gap_is_smaller_than_between_dense_samples() -> None:
     squared = igl.point_mesh_squared_distance(samples, walls[1].vertices, walls[1].faces)[0]
     assert gaps.min() >= np.sqrt(squared.min()) - 0.02
     assert gaps.min() <= np.sqrt(squared.min()) + 0.05
+
+
+def test_measured_again_walls_are_as_far_apart_as_measured_anew() -> None:
+    """A point that comes nearer, one that goes away, and one that a gap across the ring led to."""
+    yellow, blue = prisms(inner=10.0, outer=10.4)
+    yellow[0][5] += 0.2 * RING[5]
+    before = WallGaps.of(yellow, blue)
+    after = [[copy.copy() for copy in each] for each in (yellow, blue)]
+    after[0][0][5] -= 0.3 * RING[5]
+    after[1][1][15] -= 0.25 * RING[15]
+    again = before.again(*after)
+    assert again.gaps == pytest.approx(WallGaps.of(*after).gaps, abs=1e-12)
+    assert again.gaps[5] > before.gaps[5] + 0.1
+    assert again.gaps[15] < before.gaps[15] - 0.1
+
+
+def test_gaps_that_led_to_a_place_that_moved_are_measured_again() -> None:
+    """Blue's point 12 comes through to the far side of yellow and goes back: gaps on that side know of both."""
+    yellow, blue = prisms(inner=10.0, outer=10.4)
+    blue[0][12] = 9.95 * RING[0]
+    before = WallGaps.of(yellow, blue)
+    back = [blue[0].copy(), blue[1]]
+    back[0][12] = 10.4 * RING[12]
+    assert before.gaps[0] < 0.1
+    assert before.again(yellow, back).gaps == pytest.approx(WallGaps.of(yellow, back).gaps, abs=1e-12)
+
+
+def test_walls_that_have_not_moved_are_not_measured_again() -> None:
+    before = WallGaps.of(*prisms(inner=10.0, outer=10.4))
+    assert before.again(*prisms(inner=10.0, outer=10.4)) is before
 
 
 def test_the_middle_gap_of_walls_that_part_downwards_is_that_halfway_down() -> None:
