@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from fabricate.arrays import Floats, Indices, Mask
-from fabricate.triangles.adjacency import neighbour_means
+from fabricate.triangles.adjacency import grown, neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.nearby import triangles_near
 from fabricate.triangles.normals import area_vectors, mean_normals, unit
@@ -61,23 +61,32 @@ class Embedding:
 
         The point's normal is the mean of its triangles' unit normals.
         """
-        facets = unit(area_vectors(points, self.triangles))
-        normals = mean_normals(points, self.triangles)
-        smallest = np.ones(len(points))
-        np.minimum.at(
-            smallest, self.triangles.ravel(), np.einsum("mi,mki->mk", facets, normals[self.triangles]).ravel()
-        )
-        return smallest
+        return _openness(points, self.triangles)
+
+    def folded(self, points: Floats, moved: Mask, *, least: Floats) -> Mask:
+        """Return the points, (n,) bool, whose openness is less than `least`, (n,), of those around which some moved."""
+        touched = grown(moved, self.means, 1)
+        among = self.triangles[touched[self.triangles].any(axis=1)]
+        folded: Mask = touched & (_openness(points, among) < least)
+        return folded
 
     def faults_since(self, old: Floats) -> Faulty:
         """Return the test for crossings, and for folds sharper than those of the points `old`, (n, 3)."""
         least = np.minimum(self.openness(old), OPEN)
 
         def faulty(points: Floats, moved: Mask) -> Mask:
-            wrong: Mask = self.crossed(points, moved) | (self.openness(points) < least)
+            wrong: Mask = self.crossed(points, moved) | self.folded(points, moved, least=least)
             return wrong
 
         return faulty
+
+
+def _openness(points: Floats, triangles: Indices) -> Floats:
+    """Return the smallest cosine between each point's normal and those of some triangles at it, (n,) float."""
+    facets, normals = unit(area_vectors(points, triangles)), mean_normals(points, triangles)
+    smallest = np.ones(len(points))
+    np.minimum.at(smallest, triangles.ravel(), np.einsum("mi,mki->mk", facets, normals[triangles]).ravel())
+    return smallest
 
 
 def stored(points: Floats) -> Floats:

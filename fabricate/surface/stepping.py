@@ -40,7 +40,7 @@ def stepped(old: Floats, new: Floats, means: csr_array, faulty: Faulty) -> Float
             around = np.maximum(around, means @ around)
         held += (1.0 - held) * around * (0.5 if step < HALVED else 1.0)
         before, points = points, stored(new + held[:, None] * (old - new))
-        moved = (points != before).any(axis=1)
+        moved = wrong | (points != before).any(axis=1)
     return old
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.triangles.normals import area_vectors, unit
-from fabricate.triangles.ray_casting import first_hits
+from fabricate.triangles.ray_casting import RayTarget
 from fabricate.triangles.search_tree import SearchTree
 
 AGREEING = 0.2
@@ -28,15 +28,17 @@ class Aims(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Target:
-    """A closed surface, outward, to carry points onto: its search tree, and unit normals of triangles, (m, 3)."""
+    """A closed surface, outward, to carry points onto: trees for nearest places and rays, and unit normals, (m, 3)."""
 
     tree: SearchTree
+    rays: RayTarget
     normals: Floats
 
     @classmethod
     def of(cls, points: Floats, triangles: Indices) -> Target:
-        """Build the search tree."""
-        return cls(SearchTree.of(points, triangles), unit(area_vectors(points, triangles)))
+        """Build the trees."""
+        rays, normals = RayTarget.of(points, triangles), unit(area_vectors(points, triangles))
+        return cls(SearchTree.of(points, triangles), rays, normals)
 
     def aims(self, points: Floats, normals: Floats, *, reach: float) -> Aims:
         """Return where points with unit normals belong: where a ray along the normal leads, else the nearest place.
@@ -59,7 +61,7 @@ class Target:
     def _along(self, points: Floats, normals: Floats, reach: float) -> tuple[Floats, Mask]:
         """Return the signed distance along the normal, (n,) mm, and where there is one, (n,) bool."""
         both = np.concatenate([normals, -normals])
-        hits = first_hits(self.tree.points, self.tree.triangles, np.tile(points, (2, 1)), both)
+        hits = self.rays.first_hits(np.tile(points, (2, 1)), both)
         agreeing = np.einsum("ij,ij->i", self.normals[hits.triangle], np.tile(normals, (2, 1))) > AGREEING
         outward, inward = ((hits.triangle >= 0) & (hits.distance < reach) & agreeing).reshape(2, -1)
         out, into = hits.distance.reshape(2, -1)

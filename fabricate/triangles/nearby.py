@@ -68,7 +68,8 @@ class _Grid:
         first, last = self._cell(low), self._cell(high) + 1
         steps = np.zeros(self.shape + 1, dtype=np.int32)
         for ends in itertools.product((0, 1), repeat=3):
-            np.add.at(steps, tuple(np.where(ends, last, first).T), (-1) ** sum(ends))
+            corners = np.ravel_multi_index(tuple(np.where(ends, last, first).T), steps.shape)
+            np.add.at(steps.reshape(-1), corners, np.int32((-1) ** sum(ends)))
         covered: Mask = _summed(steps)[:-1, :-1, :-1] > 0
         return covered
 
