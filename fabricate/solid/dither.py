@@ -51,7 +51,8 @@ def dithered(made: Assembly) -> Assembly:
         return made
     moved = replace(made, points=stored(made.points + REACH * chosen[:, None] * _noise(len(made.points))))
     near = [body[triangles_near(made.points, body, chosen, reach=2.0 * REACH)] for body in made.bodies]
-    return made if _crossings(moved, near) > _crossings(made, near) else moved
+    crossing = _crossings(moved, near)
+    return made if crossing and crossing > _crossings(made, near) else moved
 
 
 def _in_slanting_planes(points: Floats, triangles: Indices) -> Mask:

@@ -22,8 +22,8 @@ from fabricate.surface.cut import CutSurface
 from fabricate.triangles.adjacency import neighbour_means
 from fabricate.triangles.crossing import crossing_triangles
 
-RELAXINGS = 4
-"""How often faults are relaxed, as long as they become fewer, before what is left retreats."""
+RELAXINGS, LEFT = 4, 0.9
+"""How often faults are relaxed before what is left retreats, and the share of them left from which on that ends."""
 
 CORE_WEB = 0.8
 """Least thickness of a solid core between two pockets, mm."""
@@ -66,13 +66,14 @@ def solids(
 
     best = last = tested(inner, None)
     for _ in range(RELAXINGS):
-        if not best.faulty.any():
-            return dithered(best.made)
+        if not last.faulty.any():
+            break
         slid = spread(surface, last.inner, last.faulty, means)
         last = tested(relaxed(surface, slid, last.faulty, means), last)
-        if last.faulty.sum() >= best.faulty.sum():
+        enough = last.faulty.sum() > LEFT * best.faulty.sum()
+        best = min(best, last, key=lambda each: int(each.faulty.sum()))
+        if enough:
             break
-        best = last
     if not best.faulty.any():
         return dithered(best.made)
     keeper = core_region(core, regions=len(best.made.bodies))

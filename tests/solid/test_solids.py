@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import combinations
+from typing import Any
 
 import igl
 import numpy as np
@@ -15,6 +16,7 @@ from hypothesis import strategies as st
 from manifold3d import Manifold, Mesh
 from polyhedra import seeds
 
+from fabricate.arrays import Mask
 from fabricate.duotone.certificate import Certificate, certified
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.errors import SolidError
@@ -25,7 +27,7 @@ from fabricate.mesh.pierced import double_torus, genus_six, triple_torus
 from fabricate.mesh.polygon_mesh import PolygonMesh
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
-from fabricate.solid.assembly import Assembly, Core
+from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.part import Part
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
@@ -354,3 +356,21 @@ def test_walls_keep_their_thickness(name: str) -> None:
     inner = min(pieces, key=lambda piece: piece.volume)
     squared = igl.point_mesh_squared_distance(np.asarray(inner.vertices), surface.points, surface.triangles)[0]
     assert np.sqrt(squared.min()) >= 0.8 * THICKNESS
+
+
+def test_relaxing_that_does_not_help_ends_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Faults that stay whatever is done: parts are put together twice, and the rest is for the retreat."""
+    surface, _ = cut_body("torus", clearance=0.3)
+    made, proposed = list[Assembly](), assembly
+
+    def counted(*given: Any, **options: Any) -> Assembly:
+        made.append(proposed(*given, **options))
+        return made[-1]
+
+    def hopeless(found: Assembly, _moved: Mask, **_: float) -> Mask:
+        return np.arange(found.surface_points) == 7
+
+    monkeypatch.setattr("fabricate.solid.solids.assembly", counted)
+    monkeypatch.setattr("fabricate.solid.solids._faults", hopeless)
+    solids(surface, thickness=THICKNESS, clearance=0.3)
+    assert len(made) == 2

@@ -50,6 +50,16 @@ def test_only_the_neighbourhood_of_what_moved_is_looked_at_and_that_is_enough() 
     assert not EMBEDDING.crossed(pushed_through(5), np.zeros_like(moved)).any()
 
 
+def test_folds_around_what_moved_are_those_of_the_whole_surface_and_no_others() -> None:
+    points, least = pushed_through(5), np.full(len(POINTS), OPEN)
+    moved = np.arange(len(POINTS)) == 5
+    everywhere = EMBEDDING.openness(points) < OPEN
+    assert everywhere.any()
+    assert (EMBEDDING.folded(points, moved, least=least) == everywhere).all()
+    elsewhere = np.arange(len(POINTS)) == int(POINTS[5].dot(POINTS.T).argmin())
+    assert not EMBEDDING.folded(points, elsewhere, least=least).any()
+
+
 def test_a_triangle_without_area_is_a_fault() -> None:
     points = POINTS.copy()
     first, second = TRIANGLES[7, :2]
