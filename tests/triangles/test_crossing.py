@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
+from igl.copyleft.cgal import remesh_self_intersections
 
-from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.crossing import SLAB, crossing_triangles
 
 FLAT = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], dtype=float)
 UPRIGHT = np.array([[0, -0.2, -1], [0.1, -0.2, 1], [0, 0.2, 1]], dtype=float)
@@ -15,7 +16,7 @@ TWO = np.arange(6).reshape(2, 3)
 
 def test_two_triangles_that_cross_are_one_pair() -> None:
     pairs = crossing_triangles(np.concatenate([FLAT, UPRIGHT]), TWO)
-    assert np.sort(pairs, axis=1).tolist() == [[0, 1]]
+    assert pairs.tolist() == [[0, 1]]
 
 
 @pytest.mark.parametrize("shift", [1.5, 10.0])
@@ -44,6 +45,18 @@ def test_a_folded_sphere_does() -> None:
     pairs = crossing_triangles(points, np.asarray(sphere.faces))
     assert len(pairs) > 0
     assert (sphere.faces[pairs] == 0).any(axis=(1, 2)).all()
+
+
+def test_large_meshes_are_searched_as_a_whole() -> None:
+    """Two spheres that cross along a circle through all slabs: each pair once, as in a search of all at once."""
+    sphere = trimesh.creation.icosphere(subdivisions=6)
+    points = np.concatenate([sphere.vertices, sphere.vertices + np.array([0.0, 0.5, 0.1])])
+    triangles = np.concatenate([sphere.faces, sphere.faces + len(sphere.vertices)])
+    assert len(triangles) > 2 * SLAB
+    pairs = crossing_triangles(points, triangles)
+    at_once = np.sort(remesh_self_intersections(points, triangles, detect_only=True)[2], axis=1)
+    assert pairs.tolist() == sorted(at_once.tolist())
+    assert len(pairs) > 500
 
 
 def test_nothing_crosses_nothing() -> None:
