@@ -29,8 +29,10 @@ class RayTarget:
     def of(cls, points: Floats, triangles: Indices) -> RayTarget:
         """Build the tree of triangles, (m, 3) int, on points, (n, 3) float mm."""
         scene = EmbreeScene()
-        # the mesh registers itself with the scene
-        TriangleMesh(scene, np.ascontiguousarray(points[triangles], dtype=np.float32))
+        # The mesh registers itself with the scene. Points that triangles share are handed over once.
+        TriangleMesh(
+            scene, np.ascontiguousarray(points, dtype=np.float32), np.ascontiguousarray(triangles, dtype=np.int32)
+        )
         return cls(scene)
 
     def first_hits(self, origins: Floats, directions: Floats) -> Hits:
