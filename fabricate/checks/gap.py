@@ -70,8 +70,9 @@ def smallest_gap(spacing: Spacing, first: Manifold, second: Manifold, *, clearan
     It is exact up to 1.2 clearances, or 0.6 mm if the clearance is not known or 0; beyond that it is the
     smallest distance of a vertex. The place is midway between the parts, where their distance is within 1 %
     of the gap, or the nearest to that which a bounded search finds. Parts that overlap have the gap 0,
-    somewhere near the overlap. Parts that touch with clearance 0 do so everywhere, and no place is named. What distance
-    queries alone have found, at vertices and on edges, is `queried`: an upper bound that owes nothing to Manifold.
+    somewhere near the overlap: `min_gap` intersects them first, and measures only if that leaves nothing. Parts that
+    touch with clearance 0 do so everywhere, and no place is named. What distance queries alone have found, at vertices
+    and on edges, is `queried`: an upper bound that owes nothing to Manifold.
     """
     spot = min(_vertex_spots(spacing), key=lambda each: each.distance)
     if spot.distance == 0.0:

@@ -89,9 +89,10 @@ def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expect
 
 def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, *, only_pair: bool) -> _Pair:
     clearance = expectations.clearance
-    common = first.manifold ^ second.manifold
     spacing = Spacing.between(first.tree, second.tree)
     gap = smallest_gap(spacing, first.manifold, second.manifold, clearance=clearance)
+    # Manifold has intersected them already to find a gap, and found nothing.
+    common = first.manifold ^ second.manifold if gap.min == 0.0 else Manifold()
     middles = expectations.middles.get(f"{first.part.name}-{second.part.name}")
     widest = None if middles is None else widest_gap(spacing, middles)
     gap = gap if widest is None else replace(gap, max=widest[0], max_at=widest[1])
