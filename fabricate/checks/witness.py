@@ -13,6 +13,8 @@ Theory of positive linear dependence, 1954): twelve.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.optimize import linprog
 
@@ -68,17 +70,41 @@ def _straight_motions() -> Floats:
 def _stopping(rows: Floats, gaps: Floats, targets: Floats) -> Indices | None:
     """Return the numbers of a few rows that stop every motion along the targets; None where not even all of them do."""
     limits = np.abs(targets) @ FREE
-    found = np.zeros(0, dtype=np.int64)
+    supports: list[Indices] = []
     for k, target in enumerate(targets):
         way, stops = farthest(rows, gaps, target)
         if not way < limits[k]:
             return None
         limits[k] = min(limits[k], AS_TIGHT * way)
-        found = np.union1d(found, stops)
+        supports.append(stops)
+    found = np.unique(np.concatenate(supports))
     for number in found[np.argsort(-gaps[found], kind="stable")]:
         left = found[found != number]
-        if all(
-            farthest(rows[left], gaps[left], target)[0] < limit for target, limit in zip(targets, limits, strict=True)
-        ):
-            found = left
+        without = _without(number, left, rows, gaps, targets=targets, limits=limits, supports=supports)
+        if without is not None:
+            found, supports = left, without
     return found
+
+
+def _without(
+    number: int,
+    left: Indices,
+    rows: Floats,
+    gaps: Floats,
+    *,
+    targets: Floats,
+    limits: Floats,
+    supports: Sequence[Indices],
+) -> list[Indices] | None:
+    """Return the rows among `left` that stop the motion along each target within its limit; None where none do.
+
+    Rows that stop a motion without the one that is left out go on to do so: only the other targets are looked at.
+    """
+    stopping = list(supports)
+    for k, support in enumerate(supports):
+        if number in support:
+            way, stops = farthest(rows[left], gaps[left], targets[k])
+            if not way < limits[k]:
+                return None
+            stopping[k] = left[stops]
+    return stopping
