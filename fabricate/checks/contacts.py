@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -48,6 +49,43 @@ class Contacts(NamedTuple):
     gaps: Floats
 
 
+@dataclass(frozen=True, eq=False)
+class Facing:
+    """Which triangles of a part face another part about a clearance away; looked at when they are asked for.
+
+    With a clearance of 0 such triangles are those whose corners all lie on the other part.
+
+    Attributes
+    ----------
+    own, other : SearchTree
+        Of the part, and of the other one.
+    near : (m,) bool
+        The triangles of which all corners are near enough to the other part: no others face it.
+    clearance : float
+        mm.
+    """
+
+    own: SearchTree
+    other: SearchTree
+    near: Mask
+    clearance: float
+
+    @classmethod
+    def between(cls, own: SearchTree, other: SearchTree, distances: Floats, *, clearance: float) -> Facing:
+        """Begin with the `distances`, (n,), of the part's points from the other, mm."""
+        near: Mask = np.all(distances[own.triangles] <= CORNER_REACH * clearance, axis=1)
+        return cls(own, other, near, clearance)
+
+    def among(self, triangles: Indices) -> Mask:
+        """Tell which of some triangles, (k,) int, face the other part, (k,) bool."""
+        facing = self.near[triangles]
+        if self.clearance > 0.0:
+            near = triangles[facing]
+            middles = self.own.points[self.own.triangles[near]].mean(axis=1)
+            facing[facing] = _face_to_face(self.own, self.other, middles, near, self.clearance)[0]
+        return facing
+
+
 def contacts(spacing: Spacing, *, clearance: float) -> Contacts:
     """Find where the walls of two parts face each other, from the triangles of both."""
     own = _facing(spacing.first, spacing.second, spacing.to_second, clearance)
@@ -57,20 +95,6 @@ def contacts(spacing: Spacing, *, clearance: float) -> Contacts:
         np.concatenate([own.normals, -other.normals]),
         np.concatenate([own.gaps, other.gaps]),
     )
-
-
-def facing_triangles(own: SearchTree, other: SearchTree, distances: Floats, *, clearance: float) -> Mask:
-    """Tell of each triangle of a part, (m,) bool, whether it faces the other part about a clearance away.
-
-    `distances`, (n,), are those of the part's points from the other, mm. With a clearance of 0 such triangles are those
-    whose points all lie on the other part.
-    """
-    facing: Mask = np.all(distances[own.triangles] <= CORNER_REACH * clearance, axis=1)
-    if clearance > 0.0:
-        near = np.flatnonzero(facing)
-        middles = own.points[own.triangles[near]].mean(axis=1)
-        facing[near] = _face_to_face(own, other, middles, near, clearance)[0]
-    return facing
 
 
 def shared_area(spacing: Spacing) -> float:

@@ -49,8 +49,9 @@ from typing import NamedTuple
 import numpy as np
 from manifold3d import Manifold
 
-from fabricate.arrays import Floats, Indices, Mask
+from fabricate.arrays import Floats, Indices
 from fabricate.checks.check import Check
+from fabricate.checks.contacts import Facing
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Narrowest, PartFacts
 from fabricate.checks.geometry import (
@@ -213,9 +214,6 @@ def _judged_together(judged: Sequence[_JudgedPart], expectations: Expectations) 
     return fit([each.part for each in judged], solids, expectations)
 
 
-def _necks(judged: Sequence[_JudgedPart], joints: Mapping[str, Mask]) -> dict[str, Narrowest | None]:
+def _necks(judged: Sequence[_JudgedPart], joints: Mapping[str, Sequence[Facing]]) -> dict[str, Narrowest | None]:
     """Return the narrowest neck of each part by its name; None where it has none or nothing is known of its joints."""
-    return {
-        each.part.name: narrowest_neck(each.walls, joints[each.part.name]) if each.part.name in joints else None
-        for each in judged
-    }
+    return {each.part.name: narrowest_neck(each.walls, joints.get(each.part.name, ())) for each in judged}

@@ -20,7 +20,7 @@ import numpy as np
 
 from fabricate.arrays import Indices
 from fabricate.checks.check import Check
-from fabricate.checks.contacts import facing_triangles
+from fabricate.checks.contacts import Facing
 from fabricate.checks.facts import Gap, Narrowest, Xyz
 from fabricate.checks.fit import gap_check
 from fabricate.checks.gap import Spacing, smallest_gap
@@ -184,8 +184,8 @@ def _piece(piece: CouponPiece, plate: Part, loose: Sequence[Part]) -> tuple[Coup
     tree, plate_tree = (SearchTree.of(each.points, each.triangles) for each in (named, around))
     spacing = Spacing.between(tree, plate_tree)
     gap = smallest_gap(spacing, solids[1], solids[0], clearance=clearance)
-    joint = facing_triangles(tree, plate_tree, spacing.to_second, clearance=clearance)
-    neck = narrowest_neck(walls(named, tree), joint)
+    joint = Facing.between(tree, plate_tree, spacing.to_second, clearance=clearance)
+    neck = narrowest_neck(walls(named, tree), [joint])
     facts = CouponPieceFacts(text, kind, clearance, signed_volume(named), gap, neck)
     return facts, gap_check(code, named, around, gap, clearance=clearance)
 

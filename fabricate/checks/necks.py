@@ -2,21 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from fabricate.arrays import Mask
+from fabricate.checks.contacts import Facing
 from fabricate.checks.facts import Narrowest
 from fabricate.checks.walls import Walls
 
+AT_A_TIME = 2_000
+"""So many walls are looked at together, the thinnest first: most often the first few have the neck."""
 
-def narrowest_neck(measured: Walls, joint: Mask) -> Narrowest | None:
+
+def narrowest_neck(measured: Walls, joints: Sequence[Facing]) -> Narrowest | None:
     """Return the narrowest place between two walls of a part that both belong to a joint; None if there is none.
 
-    `joint` says of each triangle of the part, (m,), whether it faces another part. The place is on one
-    of the two walls.
+    `joints` are those of the part with every other part. The place is on one of the two walls.
     """
-    between = np.flatnonzero(joint[measured.faces].all(axis=1))
-    if not len(between):
-        return None
-    x, y, z = (float(value) for value in measured.places[between[0]])
-    return Narrowest(float(measured.thickness[between[0]]), (x, y, z))
+    near = np.zeros(len(measured.faces), dtype=bool)
+    if joints:
+        near = np.logical_or.reduce([joint.near for joint in joints])[measured.faces].all(axis=1)
+    hopeful = np.flatnonzero(near)
+    for begin in range(0, len(hopeful), AT_A_TIME):
+        some = hopeful[begin : begin + AT_A_TIME]
+        faces = measured.faces[some]
+        facing = np.logical_or.reduce([joint.among(faces.ravel()) for joint in joints]).reshape(faces.shape)
+        between = some[facing.all(axis=1)]
+        if len(between):
+            x, y, z = (float(value) for value in measured.places[between[0]])
+            return Narrowest(float(measured.thickness[between[0]]), (x, y, z))
+    return None

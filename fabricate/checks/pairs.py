@@ -12,9 +12,8 @@ from manifold3d import Manifold
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from fabricate.arrays import Mask
 from fabricate.checks.check import Check
-from fabricate.checks.contacts import REACH, TOUCHING, facing_triangles, shared_area
+from fabricate.checks.contacts import REACH, TOUCHING, Facing, shared_area
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Gap, PairFacts, Verdict
 from fabricate.checks.fit import OVERLAP_SHARE, gap_check, overlap_check, whole_check, widest_gap_check
@@ -39,11 +38,11 @@ class Solid:
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """How parts go together, the checks of it, and which triangles of each part, by name, face another one."""
+    """How parts go together, the checks of it, and the joints of each part, by name, with all others."""
 
     facts: FitFacts
     checks: tuple[Check, ...]
-    joints: Mapping[str, Mask]
+    joints: Mapping[str, Sequence[Facing]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +51,7 @@ class _Pair:
 
     facts: PairFacts
     checks: tuple[Check, ...]
-    joints: tuple[tuple[str, Mask], ...] = ()
+    joints: tuple[tuple[str, Facing], ...] = ()
     neighbours: bool = False
 
     @property
@@ -130,20 +129,20 @@ def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, 
     return _Pair(facts, tuple(checks), facing, neighbours)
 
 
-def _facing(first: Solid, second: Solid, spacing: Spacing, clearance: float) -> tuple[tuple[str, Mask], ...]:
-    """Return which triangles of either part face the other, by its name."""
-    one, other, to_second, to_first = spacing.first, spacing.second, spacing.to_second, spacing.to_first
+def _facing(first: Solid, second: Solid, spacing: Spacing, clearance: float) -> tuple[tuple[str, Facing], ...]:
+    """Return how triangles of either part face the other, by its name."""
+    one, other = spacing.first, spacing.second
     return (
-        (first.part.name, facing_triangles(one, other, to_second, clearance=clearance)),
-        (second.part.name, facing_triangles(other, one, to_first, clearance=clearance)),
+        (first.part.name, Facing.between(one, other, spacing.to_second, clearance=clearance)),
+        (second.part.name, Facing.between(other, one, spacing.to_first, clearance=clearance)),
     )
 
 
-def _joints(pairs: Iterable[_Pair]) -> Mapping[str, Mask]:
-    """Return which triangles of each part face any other one."""
-    joints: dict[str, Mask] = {}
+def _joints(pairs: Iterable[_Pair]) -> Mapping[str, Sequence[Facing]]:
+    """Return the joints of each part with any other one."""
+    joints: dict[str, list[Facing]] = {}
     for name, facing in (each for pair in pairs for each in pair.joints):
-        joints[name] = joints[name] | facing if name in joints else facing
+        joints.setdefault(name, []).append(facing)
     return MappingProxyType(joints)
 
 

@@ -217,7 +217,7 @@ def manifold_genus(part: Part, edges: Edges, *, components: int) -> int:
 
     It is one only for a closed, oriented manifold; the handles of several components are summed.
     """
-    vertices = np.count_nonzero(np.bincount(part.triangles.ravel()))
+    vertices = int(np.count_nonzero(np.bincount(part.triangles.ravel())))
     return components - (vertices - len(edges.firsts) + len(part.triangles)) // 2
 
 

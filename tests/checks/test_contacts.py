@@ -8,7 +8,7 @@ from joints import GAP, ball, case, half_balls, part_of, spacing
 from manifold3d import Manifold
 
 from fabricate.arrays import Floats
-from fabricate.checks.contacts import contacts, facing_triangles, joint_pivot, shared_area
+from fabricate.checks.contacts import Facing, contacts, joint_pivot, shared_area
 from fabricate.checks.geometry import area
 
 
@@ -42,16 +42,18 @@ def test_without_contacts_the_pivot_is_the_centroid() -> None:
 def test_triangles_that_face_the_other_part_are_those_of_the_joint() -> None:
     inside, outside = ball(10.0), case(10.0 + GAP)
     measured = spacing(inside, outside)
-    one = facing_triangles(measured.first, measured.second, measured.to_second, clearance=GAP)
-    other = facing_triangles(measured.second, measured.first, measured.to_first, clearance=GAP)
-    assert one.all()
-    assert other.tolist() == [False] * 12 + [True] * len(inside.triangles)
+    one = Facing.between(measured.first, measured.second, measured.to_second, clearance=GAP)
+    other = Facing.between(measured.second, measured.first, measured.to_first, clearance=GAP)
+    assert one.among(np.arange(len(inside.triangles))).all()
+    assert other.among(np.arange(len(outside.triangles))).tolist() == [False] * 12 + [True] * len(inside.triangles)
 
 
 def test_without_clearance_the_shared_faces_are_the_joint() -> None:
-    measured = spacing(ball(10.0), case(10.0))
-    other = facing_triangles(measured.second, measured.first, measured.to_first, clearance=0.0)
-    assert other.tolist() == [False] * 12 + [True] * (len(other) - 12)
+    outside = case(10.0)
+    measured = spacing(ball(10.0), outside)
+    other = Facing.between(measured.second, measured.first, measured.to_first, clearance=0.0)
+    facing = other.among(np.arange(len(outside.triangles)))
+    assert facing.tolist() == [False] * 12 + [True] * (len(facing) - 12)
 
 
 @pytest.mark.parametrize(("gap", "share"), [(0.0, 1.0), (0.01, 0.0), (-0.01, 0.0)])
