@@ -20,7 +20,8 @@ def part_of(manifold: Manifold) -> Part:
 
 
 def spacing(first: Part, second: Part) -> Spacing:
-    return Spacing.between(SearchTree.of(first.points, first.triangles), SearchTree.of(second.points, second.triangles))
+    trees = (SearchTree.of(part.points, part.triangles) for part in (first, second))
+    return Spacing.between(*trees, clearance=GAP)
 
 
 def turned(part: Part, angle: float, axis: tuple[float, float, float]) -> Part:

@@ -8,10 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from manifold3d import Manifold
 
-from fabricate.arrays import Floats, frozen
+from fabricate.arrays import Floats, Mask, frozen
 from fabricate.checks.facts import Gap, Xyz
 from fabricate.triangles.adjacency import undirected_edges
 from fabricate.triangles.edge_pieces import EdgePieces
+from fabricate.triangles.near_distances import near_distances
 from fabricate.triangles.search_tree import SearchTree
 
 SEARCH = 1.2
@@ -22,6 +23,16 @@ UNKNOWN_SEARCH = 0.6
 
 PLACE_TOLERANCE = 0.01
 """The place is good enough when the distance there exceeds the gap by this share."""
+
+MEASURED = 2.01
+"""Vertices are measured up to this many clearances, or gaps where these are wider: contacts are no farther apart."""
+
+FIRST_SAMPLE = 1_000
+"""About so many vertices of each part tell roughly how wide the gap is, before all that are near are measured."""
+
+LONG = 0.9
+"""Ends of edges longer than this share of how far vertices are measured are all measured: between its ends such an
+edge may come near. A shorter one between vertices that are farther stays beyond the gap."""
 
 ROUNDS, MOST_PIECES = 12, 10_000
 """How often pieces of edges are halved to find the place, and how many at a time."""
@@ -35,7 +46,8 @@ class Spacing:
     ----------
     first, second : SearchTree
     to_second : (n1,) float
-        Distance of each of the first part's vertices to the second part's surface, mm.
+        Distance of each of the first part's vertices to the second part's surface, mm; of those that are farther than
+        twice the clearance, and twice the gap, something between that and their distance.
     to_first : (n2,) float
         The same the other way round.
     """
@@ -50,10 +62,13 @@ class Spacing:
         object.__setattr__(self, "to_first", frozen(self.to_first, np.float64, (None,)))
 
     @classmethod
-    def between(cls, first: SearchTree, second: SearchTree) -> Spacing:
-        """Measure from every vertex of both parts."""
-        to_second = second.nearest(first.points).distance
-        return cls(first, second, to_second, first.nearest(second.points).distance)
+    def between(cls, first: SearchTree, second: SearchTree, *, clearance: float | None) -> Spacing:
+        """Measure from all vertices of either part that are near the other one, for parts `clearance` mm apart."""
+        gap = min(_sampled(first, second), _sampled(second, first))
+        reach = MEASURED * max(gap, clearance or UNKNOWN_SEARCH)
+        to_second = near_distances(second, first.points, reach=reach, always=_at_long_edges(first, LONG * reach))
+        to_first = near_distances(first, second.points, reach=reach, always=_at_long_edges(second, LONG * reach))
+        return cls(first, second, to_second, to_first)
 
 
 class _Spot(NamedTuple):
@@ -99,6 +114,21 @@ def widest_gap(spacing: Spacing, middles: Floats) -> tuple[float, Xyz] | None:
     widest = int(across.distance.argmax())
     x, y, z = (float(value) for value in 0.5 * (wall[widest] + across.point[widest]))
     return float(across.distance[widest]), (x, y, z)
+
+
+def _sampled(own: SearchTree, other: SearchTree) -> float:
+    """Return the smallest distance of some of a part's vertices from another part, mm."""
+    some = own.points[:: max(1, len(own.points) // FIRST_SAMPLE)]
+    return float(other.nearest(some).distance.min())
+
+
+def _at_long_edges(own: SearchTree, length: float) -> Mask:
+    """Tell which points, (n,) bool, are ends of edges longer than this, mm."""
+    ends = undirected_edges(own.triangles)
+    ways = own.points[ends[:, 1]] - own.points[ends[:, 0]]
+    at_long: Mask = np.zeros(len(own.points), dtype=bool)
+    at_long[ends[np.einsum("ij,ij->i", ways, ways) > length**2]] = True
+    return at_long
 
 
 def _vertex_spots(spacing: Spacing) -> tuple[_Spot, _Spot]:

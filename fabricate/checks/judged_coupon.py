@@ -182,7 +182,7 @@ def _piece(piece: CouponPiece, plate: Part, loose: Sequence[Part]) -> tuple[Coup
     named = Part(f"the {kind} at {text} mm", part.points, part.triangles)
     around = Part("the plate", plate.points, plate.triangles)
     tree, plate_tree = (SearchTree.of(each.points, each.triangles) for each in (named, around))
-    spacing = Spacing.between(tree, plate_tree)
+    spacing = Spacing.between(tree, plate_tree, clearance=clearance)
     gap = smallest_gap(spacing, solids[1], solids[0], clearance=clearance)
     joint = Facing.between(tree, plate_tree, spacing.to_second, clearance=clearance)
     neck = narrowest_neck(walls(named, tree), [joint])

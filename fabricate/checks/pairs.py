@@ -88,7 +88,7 @@ def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expect
 
 def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, *, only_pair: bool) -> _Pair:
     clearance = expectations.clearance
-    spacing = Spacing.between(first.tree, second.tree)
+    spacing = Spacing.between(first.tree, second.tree, clearance=clearance)
     gap = smallest_gap(spacing, first.manifold, second.manifold, clearance=clearance)
     # Manifold has intersected them already to find a gap, and found nothing.
     common = first.manifold ^ second.manifold if gap.min == 0.0 else Manifold()

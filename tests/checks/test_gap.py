@@ -12,6 +12,7 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from fabricate.arrays import Floats
+from fabricate.checks.contacts import CORNER_REACH
 from fabricate.checks.facts import Gap
 from fabricate.checks.gap import Spacing, smallest_gap, widest_gap
 from fabricate.checks.geometry import as_manifold
@@ -32,9 +33,7 @@ def tree_of(part: Part) -> SearchTree:
 
 
 def gap_between(first: Part, second: Part, *, clearance: float | None) -> Gap:
-    spacing = Spacing.between(
-        SearchTree.of(first.points, first.triangles), SearchTree.of(second.points, second.triangles)
-    )
+    spacing = Spacing.between(tree_of(first), tree_of(second), clearance=clearance)
     return smallest_gap(spacing, as_manifold(first), as_manifold(second), clearance=clearance)
 
 
@@ -164,19 +163,41 @@ def test_tetrahedra_agree_with_a_minimiser(first: Floats, second: Floats, extra:
 
 def test_vertex_distances_are_measured_both_ways() -> None:
     small, large = part_of(trimesh.creation.box(), shift=(0, 0, 3)), part_of(trimesh.creation.box((9, 9, 2)))
-    spacing = Spacing.between(
-        SearchTree.of(small.points, small.triangles), SearchTree.of(large.points, large.triangles)
-    )
+    spacing = Spacing.between(tree_of(small), tree_of(large), clearance=2.0)
     assert spacing.to_second.min() == pytest.approx(1.5)
     assert spacing.to_first.min() > 4.0
     assert gap_between(small, large, clearance=2.0).min == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize("clearance", [None, 0.0, 3.0])
+def test_far_vertices_are_known_to_be_beyond_what_contacts_and_gap_need(clearance: float | None) -> None:
+    """Slabs 3 mm apart and 20 mm thick: near walls are measured, and all else lies beyond twice the gap."""
+    lower, upper = part_of(slab(cells=8, below=-20, top=0)), part_of(slab(cells=8, below=3, top=20))
+    trees = tree_of(lower), tree_of(upper)
+    spacing = Spacing.between(*trees, clearance=clearance)
+    for own, other, found in ((*trees, spacing.to_second), (*trees[::-1], spacing.to_first)):
+        exact = other.nearest(own.points).distance
+        measured = found == exact
+        assert measured[exact <= CORNER_REACH * max(clearance or 0.0, exact.min())].all()
+        assert (found[~measured] > CORNER_REACH * max(clearance or 0.0, exact.min())).all()
+        assert (found <= exact).all()
+        assert not measured.all()
+
+
+def test_a_long_edge_between_far_vertices_is_found_near() -> None:
+    """A bar across a fine slab's edge: its ends are far from it, and its middle is not."""
+    bar = part_of(trimesh.creation.box((40, 1, 1)))
+    edge = trimesh.creation.box((1, 1, 1)).subdivide().subdivide()
+    edge.apply_transform(turn(np.pi / 4, (1, 0, 0)))
+    across = Part("red", edge.vertices + np.array([3, 0, 0.5 + np.sqrt(0.5) + 0.2]), edge.faces)
+    assert gap_between(bar, across, clearance=0.3).queried == pytest.approx(0.2, rel=0.01)
 
 
 def test_the_widest_place_of_a_gap_is_found_from_its_mid_line() -> None:
     lower = part_of(slab(cells=16, below=-2, top=0))
     upper, dent = bumped(slab(cells=16, below=0.3, top=2), near=(3.2, -4.1, 0.3), height=0.2)
     middles = np.column_stack([np.linspace(-7, 7, 701), np.full(701, dent[1]), np.full(701, 0.15)])
-    spacing = Spacing.between(tree_of(upper), tree_of(lower))
+    spacing = Spacing.between(tree_of(upper), tree_of(lower), clearance=0.3)
     found = widest_gap(spacing, middles)
     assert found is not None
     assert found[0] == pytest.approx(0.5, abs=0.03)  # to the side of the dent its wall is a little nearer

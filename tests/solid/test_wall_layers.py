@@ -45,7 +45,7 @@ def built(joint: str, core: Core = "hollow") -> Assembly:
 
 def widest(made: Assembly) -> float:
     first, second = (SearchTree.of(part.points, part.triangles) for part in made.parts)
-    found = widest_gap(Spacing.between(first, second), made.middles(bent().curves[0], 0))
+    found = widest_gap(Spacing.between(first, second, clearance=CLEARANCE), made.middles(bent().curves[0], 0))
     assert found is not None
     return found[0] / CLEARANCE
 
