@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from igl.copyleft.cgal import remesh_self_intersections
 
-from fabricate.triangles.crossing import SLAB, crossing_triangles
+from fabricate.triangles.crossing import BLOCK, crossing_triangles
 
 FLAT = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], dtype=float)
 UPRIGHT = np.array([[0, -0.2, -1], [0.1, -0.2, 1], [0, 0.2, 1]], dtype=float)
@@ -48,11 +48,11 @@ def test_a_folded_sphere_does() -> None:
 
 
 def test_large_meshes_are_searched_as_a_whole() -> None:
-    """Two spheres that cross along a circle through all slabs: each pair once, as in a search of all at once."""
+    """Two spheres that cross along a circle through all blocks: each pair once, as in a search of all at once."""
     sphere = trimesh.creation.icosphere(subdivisions=6)
     points = np.concatenate([sphere.vertices, sphere.vertices + np.array([0.0, 0.5, 0.1])])
     triangles = np.concatenate([sphere.faces, sphere.faces + len(sphere.vertices)])
-    assert len(triangles) > 2 * SLAB
+    assert len(triangles) > 2 * BLOCK
     pairs = crossing_triangles(points, triangles)
     at_once = np.sort(remesh_self_intersections(points, triangles, detect_only=True)[2], axis=1)
     assert pairs.tolist() == sorted(at_once.tolist())
