@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from manifold3d import Manifold
 
-from fabricate.arrays import Floats, Mask, frozen
+from fabricate.arrays import Floats, Indices, Mask, frozen
 from fabricate.checks.facts import Gap, Xyz
 from fabricate.triangles.adjacency import undirected_edges
 from fabricate.triangles.edge_pieces import EdgePieces
-from fabricate.triangles.near_distances import near_distances
+from fabricate.triangles.near_distances import ROUNDING, near_distances
 from fabricate.triangles.search_tree import SearchTree
 
 SEARCH = 1.2
@@ -153,7 +153,7 @@ def _on_edges(own: SearchTree, other: SearchTree, distances: Floats, spot: _Spot
 
     Pieces of edges are halved, the most promising first, until one end is near enough (branch and bound).
     """
-    pieces = EdgePieces.whole(own.points, undirected_edges(own.triangles), distances)
+    pieces = EdgePieces.whole(own.points, _hopeful_edges(own, distances, gap), distances)
     for _ in range(ROUNDS):
         least = pieces.least
         order = np.argsort(least, kind="stable")[:MOST_PIECES]
@@ -166,6 +166,18 @@ def _on_edges(own: SearchTree, other: SearchTree, distances: Floats, spot: _Spot
         if at_middle[k] < spot.distance:
             spot = _Spot(float(at_middle[k]), middles[k], other)
     return spot
+
+
+def _hopeful_edges(own: SearchTree, distances: Floats, gap: float) -> Indices:
+    """Return the edges that may come as near to another part as the gap, (e, 2) int.
+
+    Where an edge is nearest between its ends, one of these is at most half its length from there, at right angles.
+    """
+    edges = undirected_edges(own.triangles)
+    nearer = np.minimum(distances[edges[:, 0]], distances[edges[:, 1]])
+    ways = own.points[edges[:, 1]] - own.points[edges[:, 0]]
+    hopeful: Indices = edges[nearer**2 <= (1.0 + ROUNDING) * (gap**2 + 0.25 * np.einsum("ij,ij->i", ways, ways))]
+    return hopeful
 
 
 def _midway(spot: _Spot) -> tuple[float, float, float]:

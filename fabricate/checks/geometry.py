@@ -17,16 +17,20 @@ VOLUME_TOLERANCE = 1e-6
 
 def signed_volume(part: Part) -> float:
     """Return the volume that a closed part encloses, mm3; negative if it is inside out."""
+    return enclosed_volume(part, area_vectors(part.points, part.triangles))
+
+
+def enclosed_volume(part: Part, vectors: Floats) -> float:
+    """Return the same, mm3, where the part's area vectors, (m, 3) mm2, are known already."""
     if not len(part.points):
         return 0.0
     middle = (part.points.min(axis=0) + part.points.max(axis=0)) / 2  # less cancellation
-    first, second, third = np.moveaxis((part.points - middle)[part.triangles], 1, 0)
-    return float(np.einsum("ij,ij->", first, np.cross(second, third)) / 6)
+    return float(np.einsum("ij,ij->", (part.points - middle)[part.triangles[:, 0]], vectors) / 6)
 
 
-def area(part: Part) -> float:
-    """Return the surface area, mm2."""
-    return float(triangle_areas(part).sum())
+def area(vectors: Floats) -> float:
+    """Return the surface area, mm2, of triangles with these area vectors, (m, 3) mm2."""
+    return 0.5 * float(np.linalg.norm(vectors, axis=1).sum())
 
 
 def triangle_areas(part: Part) -> Floats:

@@ -57,10 +57,10 @@ from fabricate.checks.facts import FitFacts, Narrowest, PartFacts
 from fabricate.checks.geometry import (
     area,
     as_manifold,
+    enclosed_volume,
     is_solid,
     manifold_check,
     self_intersection_check,
-    signed_volume,
     volume_check,
 )
 from fabricate.checks.necks import narrowest_neck
@@ -74,6 +74,7 @@ from fabricate.formats.limits import ReadLimits
 from fabricate.formats.reading import read_mesh
 from fabricate.solid.part import Part
 from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.normals import area_vectors
 from fabricate.triangles.search_tree import SearchTree
 
 PART_LIMITS = ReadLimits(max_bytes=4 << 30, max_faces=20_000_000)
@@ -183,15 +184,16 @@ def _check_names(parts: Sequence[Part]) -> None:
 
 def _judged_part(part: Part, expectations: Expectations) -> _JudgedPart:
     connected = topology(part, expected_genus=expectations.genus.get(part.name))
-    volume, manifold = signed_volume(part), as_manifold(part)
+    vectors = area_vectors(part.points, part.triangles)
+    volume, manifold = enclosed_volume(part, vectors), as_manifold(part)
     tree = SearchTree.of(part.points, part.triangles)
-    measured = walls(part, tree)
+    measured = walls(part, tree, vectors)
     crossing = crossing_triangles(part.points, part.triangles)
     facts = PartFacts(
         file=f"{part.name}.stl",
         triangles=len(part.triangles),
         volume_mm3=volume,
-        area_mm2=area(part),
+        area_mm2=area(vectors),
         genus=connected.genus,
         components=connected.components,
         watertight=connected.watertight,

@@ -42,6 +42,7 @@ from fabricate.solid.coupon import Coupon, CouponPiece, label
 from fabricate.solid.coupon_window import CouponWindow
 from fabricate.solid.part import Part
 from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.normals import area_vectors
 from fabricate.triangles.search_tree import SearchTree
 
 
@@ -185,7 +186,8 @@ def _piece(piece: CouponPiece, plate: Part, loose: Sequence[Part]) -> tuple[Coup
     spacing = Spacing.between(tree, plate_tree, clearance=clearance)
     gap = smallest_gap(spacing, solids[1], solids[0], clearance=clearance)
     joint = Facing.between(tree, plate_tree, spacing.to_second, clearance=clearance)
-    neck = narrowest_neck(walls(named, tree), [joint])
+    measured = walls(named, tree, area_vectors(named.points, named.triangles))
+    neck = narrowest_neck(measured, [joint])
     facts = CouponPieceFacts(text, kind, clearance, signed_volume(named), gap, neck)
     return facts, gap_check(code, named, around, gap, clearance=clearance)
 

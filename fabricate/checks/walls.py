@@ -15,7 +15,6 @@ from fabricate.arrays import Floats, Indices, Mask, frozen
 from fabricate.checks.facts import Spread
 from fabricate.solid.part import Part
 from fabricate.triangles.inscribed_balls import inscribed_balls
-from fabricate.triangles.normals import area_vectors
 from fabricate.triangles.ray_casting import Hits, RayTarget
 from fabricate.triangles.search_tree import SearchTree
 
@@ -144,14 +143,13 @@ class _Probe:
         return meet
 
 
-def walls(part: Part, tree: SearchTree) -> Walls:
+def walls(part: Part, tree: SearchTree, vectors: Floats) -> Walls:
     """Measure the walls of a part: from the middle of each triangle to the first face, if that is opposite.
 
     Triangles with the thinnest walls are measured from places all over them, and balls look for what rays have missed.
     Where the first face is not opposite, as near an edge of more than 37 degrees, there is no wall; a sharper
-    edge is one that gets thin. `tree` is the part's.
+    edge is one that gets thin. `tree` and the area vectors, (m, 3) mm2, are the part's.
     """
-    vectors = area_vectors(part.points, part.triangles)
     lengths = np.linalg.norm(vectors, axis=1)
     sending = np.flatnonzero(lengths > 0.0)
     sending = sending[:: max(1, -(-len(sending) // MOST_RAYS))]
@@ -169,7 +167,7 @@ def walls(part: Part, tree: SearchTree) -> Walls:
     sent = _Sent(sending, points[part.triangles[sending]].mean(axis=1), 0.5 * lengths[sending])
     hits = probe.hit(sent)
     by_rays, by_balls = probe.opposite(sent, hits), _by_balls(probe, sent, hits, tree, middle)
-    closer = _grid(probe, _joined([by_rays, by_balls]))
+    closer = _grid(probe, [by_rays, by_balls])
     hits = probe.hit(closer)
     found = _joined([by_rays, by_balls, probe.opposite(closer, hits), _by_balls(probe, closer, hits, tree, middle)])
     return Walls(found.thickness, found.places + middle, found.areas, found.faces)
@@ -185,10 +183,10 @@ def _joined(several: list[Walls]) -> Walls:
     )
 
 
-def _grid(probe: _Probe, found: Walls) -> _Sent:
+def _grid(probe: _Probe, found: list[Walls]) -> _Sent:
     """Return a grid of places on the triangles at either end of the thinnest walls."""
-    thinnest = np.argsort(found.thickness, kind="stable")[:CLOSER]
-    triangles = np.unique(found.faces[thinnest])
+    thickness, faces = (np.concatenate([getattr(each, name) for each in found]) for name in ("thickness", "faces"))
+    triangles = np.unique(faces[np.argsort(thickness, kind="stable")[:CLOSER]])
     steps = np.array([(i, j) for i in range(DIVISIONS + 1) for j in range(DIVISIONS + 1 - i)]) / DIVISIONS
     weights = INSIDE * np.column_stack([steps, 1.0 - steps.sum(axis=1)]) + (1.0 - INSIDE) / 3
     places = np.einsum("gc,tcx->tgx", weights, probe.points[probe.triangles[triangles]]).reshape(-1, 3)

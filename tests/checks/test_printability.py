@@ -21,6 +21,7 @@ from fabricate.checks.printability import (
 from fabricate.checks.walls import Walls, walls
 from fabricate.process import PROCESSES, Process
 from fabricate.solid.part import Part
+from fabricate.triangles.normals import area_vectors
 from fabricate.triangles.search_tree import SearchTree
 
 FDM = PROCESSES["fdm"]
@@ -30,7 +31,8 @@ every_process = pytest.mark.parametrize("process", PROCESSES.values(), ids=PROCE
 
 
 def measured(part: Part) -> Walls:
-    return walls(part, SearchTree.of(part.points, part.triangles))
+    tree = SearchTree.of(part.points, part.triangles)
+    return walls(part, tree, area_vectors(part.points, part.triangles))
 
 
 def wall(thickness: float, process: Process | None) -> Check:

@@ -11,11 +11,13 @@ from hypothesis import strategies as st
 from fabricate.checks import walls as walls_module
 from fabricate.checks.walls import Walls
 from fabricate.solid.part import Part
+from fabricate.triangles.normals import area_vectors
 from fabricate.triangles.search_tree import SearchTree
 
 
 def walls(part: Part) -> Walls:
-    return walls_module.walls(part, SearchTree.of(part.points, part.triangles))
+    tree = SearchTree.of(part.points, part.triangles)
+    return walls_module.walls(part, tree, area_vectors(part.points, part.triangles))
 
 
 def part_of(*meshes: trimesh.Trimesh) -> Part:
