@@ -67,13 +67,13 @@ from fabricate.checks.necks import narrowest_neck
 from fabricate.checks.pairs import Fit, Solid, fit
 from fabricate.checks.printability import band_check, neck_check, part_neck_check, process_gap_check, wall_check
 from fabricate.checks.shop import shop_checks
-from fabricate.checks.topology import topology
-from fabricate.checks.walls import Walls, walls
+from fabricate.checks.survey import Survey, surveyed, surveys_beside
+from fabricate.checks.topology import Topology, topology
+from fabricate.checks.walls import Walls
 from fabricate.errors import ReadError
 from fabricate.formats.limits import ReadLimits
 from fabricate.formats.reading import read_mesh
 from fabricate.solid.part import Part
-from fabricate.triangles.crossing import crossing_triangles
 from fabricate.triangles.normals import area_vectors
 from fabricate.triangles.search_tree import SearchTree
 
@@ -98,13 +98,27 @@ class JudgedAlone(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class _JudgedPart:
+class _Measured:
+    """A part and what others are measured with, built once."""
+
     part: Part
+    topology: Topology
+    vectors: Floats
     manifold: Manifold
     tree: SearchTree
-    walls: Walls
-    facts: PartFacts
-    checks: tuple[Check, ...]
+
+    @classmethod
+    def of(cls, part: Part, expectations: Expectations) -> _Measured:
+        return cls(
+            part,
+            topology(part, expected_genus=expectations.genus.get(part.name)),
+            area_vectors(part.points, part.triangles),
+            as_manifold(part),
+            SearchTree.of(part.points, part.triangles),
+        )
+
+    def surveyed(self) -> Survey:
+        return surveyed(self.part, self.tree, self.vectors)
 
 
 def read_part(path: Path) -> Part:
@@ -150,10 +164,14 @@ def judged_parts(parts: Sequence[Part], expectations: Expectations) -> Judgement
         If there are no parts, or two have the same name.
     """
     _check_names(parts)
-    judged = [_judged_part(part, expectations) for part in parts]
+    with surveys_beside(parts) as awaited:
+        measured = [_Measured.of(part, expectations) for part in parts]
+        together = _judged_together(measured, expectations) if len(measured) > 1 else None
+        surveys = awaited() or [each.surveyed() for each in measured]
+    walls = {part.name: survey.walls for part, survey in zip(parts, surveys, strict=True)}
+    judged = [_judged_part(each, survey, expectations) for each, survey in zip(measured, surveys, strict=True)]
     checks = [check for each in judged for check in each.checks]
-    together = _judged_together(judged, expectations) if len(judged) > 1 else None
-    necks = _necks(judged, together.joints) if together else {}
+    necks = _necks(walls, together.joints) if together else {}
     checks += [part_neck_check(name, neck, process=expectations.process) for name, neck in necks.items()]
     checks += together.checks if together else ()
     clearance, process = expectations.clearance, expectations.process
@@ -162,16 +180,16 @@ def judged_parts(parts: Sequence[Part], expectations: Expectations) -> Judgement
     if expectations.band is not None:
         checks.append(band_check(expectations.band, clearance=clearance, process=process))
     facts = MappingProxyType(
-        {each.part.name: replace(each.facts, neck_mm=necks.get(each.part.name)) for each in judged}
+        {part.name: replace(each.facts, neck_mm=necks.get(part.name)) for part, each in zip(parts, judged, strict=True)}
     )
-    checks += shop_checks(parts, facts, {each.part.name: each.walls for each in judged}, expectations.shop)
+    checks += shop_checks(parts, facts, walls, expectations.shop)
     return Judgement(facts, together.facts if together else None, tuple(checks))
 
 
 def judged_alone(part: Part, expectations: Expectations) -> JudgedAlone:
     """Measure one part and check what can be said of it by itself: the codes that begin with PART above."""
-    judged = _judged_part(part, expectations)
-    return JudgedAlone(judged.facts, judged.checks)
+    measured = _Measured.of(part, expectations)
+    return _judged_part(measured, measured.surveyed(), expectations)
 
 
 def _check_names(parts: Sequence[Part]) -> None:
@@ -182,40 +200,38 @@ def _check_names(parts: Sequence[Part]) -> None:
         raise ReadError(f"parts with different names were expected, found {count} named '{name}'; rename one")
 
 
-def _judged_part(part: Part, expectations: Expectations) -> _JudgedPart:
-    connected = topology(part, expected_genus=expectations.genus.get(part.name))
-    vectors = area_vectors(part.points, part.triangles)
-    volume, manifold = enclosed_volume(part, vectors), as_manifold(part)
-    tree = SearchTree.of(part.points, part.triangles)
-    measured = walls(part, tree, vectors)
-    crossing = crossing_triangles(part.points, part.triangles)
+def _judged_part(measured: _Measured, survey: Survey, expectations: Expectations) -> JudgedAlone:
+    part, connected, walls = measured.part, measured.topology, survey.walls
+    volume = enclosed_volume(part, measured.vectors)
     facts = PartFacts(
         file=f"{part.name}.stl",
         triangles=len(part.triangles),
         volume_mm3=volume,
-        area_mm2=area(vectors),
+        area_mm2=area(measured.vectors),
         genus=connected.genus,
         components=connected.components,
         watertight=connected.watertight,
-        self_intersections=len(crossing),
-        wall_mm=measured.spread,
+        self_intersections=len(survey.crossing),
+        wall_mm=walls.spread,
         neck_mm=None,
     )
     checks = (
         *connected.checks,
         volume_check(part, volume),
-        self_intersection_check(part, crossing),
-        manifold_check(part, manifold, volume=volume),
-        wall_check(part, measured, process=expectations.process),
+        self_intersection_check(part, survey.crossing),
+        manifold_check(part, measured.manifold, volume=volume),
+        wall_check(part, walls, process=expectations.process),
     )
-    return _JudgedPart(part, manifold, tree, measured, facts, checks)
+    return JudgedAlone(facts, checks)
 
 
-def _judged_together(judged: Sequence[_JudgedPart], expectations: Expectations) -> Fit:
-    solids = {each.part.name: Solid(each.part, each.manifold, each.tree) for each in judged if is_solid(each.manifold)}
-    return fit([each.part for each in judged], solids, expectations)
+def _judged_together(measured: Sequence[_Measured], expectations: Expectations) -> Fit:
+    solids = {
+        each.part.name: Solid(each.part, each.manifold, each.tree) for each in measured if is_solid(each.manifold)
+    }
+    return fit([each.part for each in measured], solids, expectations)
 
 
-def _necks(judged: Sequence[_JudgedPart], joints: Mapping[str, Sequence[Facing]]) -> dict[str, Narrowest | None]:
+def _necks(walls: Mapping[str, Walls], joints: Mapping[str, Sequence[Facing]]) -> dict[str, Narrowest | None]:
     """Return the narrowest neck of each part by its name; None where it has none or nothing is known of its joints."""
-    return {each.part.name: narrowest_neck(each.walls, joints.get(each.part.name, ())) for each in judged}
+    return {name: narrowest_neck(measured, joints.get(name, ())) for name, measured in walls.items()}
