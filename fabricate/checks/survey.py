@@ -55,13 +55,9 @@ def surveyed(part: Part, tree: SearchTree, vectors: Floats) -> Survey:
 
 @contextmanager
 def surveys_beside(parts: Sequence[Part]) -> Iterator[Awaited]:
-    """Begin to survey parts in processes beside this one, if that is worthwhile, and yield what waits for them.
-
-    A worker of a batch begins none: its neighbours keep the other processors busy.
-    """
-    many = sum(len(part.triangles) for part in parts) >= WORTHWHILE
-    spare = 0 if multiprocessing.parent_process() is not None else (os.cpu_count() or 1) - 1
-    if not many or not spare:
+    """Begin to survey parts in processes beside this one, if that is worthwhile, and yield what waits for them."""
+    spare = _idle_processors()
+    if not spare or sum(len(part.triangles) for part in parts) < WORTHWHILE:
         yield lambda: None
         return
     with TemporaryDirectory(prefix="fabricate-") as name:
@@ -71,6 +67,17 @@ def surveys_beside(parts: Sequence[Part]) -> Iterator[Awaited]:
             yield lambda: _ended(children, folder, len(parts))
         finally:
             _stop(children)
+
+
+def _idle_processors() -> int:
+    """Return how many processors nobody needs: on busy ones another process only makes more work.
+
+    A worker of a batch counts none: its neighbours begin and end at other times.
+    """
+    if multiprocessing.parent_process() is not None or not hasattr(os, "getloadavg"):
+        return 0
+    busy = max(1.0, os.getloadavg()[0])
+    return max(0, round((os.cpu_count() or 1) - busy))
 
 
 def write_surveys(folder: Path, numbers: Iterable[int]) -> None:

@@ -44,6 +44,7 @@ def large(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
     """Let every part be large enough for processes of its own, on a computer that has room for them."""
     monkeypatch.setattr(survey, "WORTHWHILE", 0)
     monkeypatch.setattr(multiprocessing, "parent_process", lambda: None)
+    monkeypatch.setattr(os, "getloadavg", lambda: (1.2, 0.0, 0.0))
     return monkeypatch
 
 
@@ -73,11 +74,13 @@ def test_the_judgement_is_the_same(large: pytest.MonkeyPatch) -> None:
     assert "box-1.self_intersections" in {check.code for check in beside.checks if check.failed}
 
 
-@pytest.mark.parametrize("what", ["few triangles", "one processor", "in a worker"])
+@pytest.mark.parametrize("what", ["few triangles", "one processor", "busy", "in a worker"])
 def test_no_process_is_begun_where_it_is_no_use(large: pytest.MonkeyPatch, what: str) -> None:
     large.setattr(os, "cpu_count", lambda: 1 if what == "one processor" else 2)
     if what == "few triangles":
         large.setattr(survey, "WORTHWHILE", 10_000)
+    if what == "busy":
+        large.setattr(os, "getloadavg", lambda: (2.6, 0.0, 0.0))
     if what == "in a worker":
         large.setattr(multiprocessing, "parent_process", multiprocessing.current_process)
     large.setattr(survey, "_begun", lambda *_: pytest.fail("a process was begun"))
