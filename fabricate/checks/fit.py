@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from manifold3d import Manifold
@@ -11,7 +11,6 @@ from fabricate.arrays import Floats
 from fabricate.checks.check import MOST_PLACES, Check
 from fabricate.checks.contacts import TOUCHING
 from fabricate.checks.facts import Gap, Spaces
-from fabricate.checks.geometry import signed_volume
 from fabricate.checks.wording import place
 from fabricate.solid.part import Part
 
@@ -152,24 +151,26 @@ def _narrowing(excess: float, tolerance: float | None) -> str:
     return "the surface bends sharply there for its tiles: ask for a larger pattern.tile_size"
 
 
-def whole_check(code: str, parts: Sequence[Part], spaces: Spaces) -> Check:
+def whole_check(code: str, volumes: Mapping[str, float], spaces: Spaces | None) -> Check:
     """Check that the volumes of the parts and of the gap between them add up to that of the uncut shell.
 
     Parameters
     ----------
     code : str
-    parts : sequence of Part
-    spaces : Spaces
-        Volumes of the space between the parts, and of the whole, uncut.
+    volumes : mapping of str to float
+        Of each part, by its name, mm3.
+    spaces : Spaces or None
+        Volumes of the space between the parts, and of the whole, uncut. Skipped where they are not known.
     """
-    names = ", ".join(part.name for part in parts)
-    total = spaces.gap + sum(map(signed_volume, parts))
-    whole = spaces.shell
+    if spaces is None:
+        message = "volumes were not added up, because the uncut shell is not known"
+        return Check(code, ok=False, skipped=True, message=message)
+    total, whole = spaces.gap + sum(volumes.values()), spaces.shell
     return Check(
         code,
         ok=abs(total - whole) <= VOLUME_SHARE * abs(whole),
-        message=f"{names} and the gap must add up to the shell's {whole:.6g} mm3 within {VOLUME_SHARE:.1%}, "
-        f"and they have {total:.6g} mm3",
+        message=f"{', '.join(volumes)} and the gap must add up to the shell's {whole:.6g} mm3 within "
+        f"{VOLUME_SHARE:.1%}, and they have {total:.6g} mm3",
     )
 
 

@@ -54,6 +54,7 @@ from fabricate.checks.check import Check
 from fabricate.checks.contacts import Facing
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Narrowest, PartFacts
+from fabricate.checks.fit import whole_check
 from fabricate.checks.geometry import (
     area,
     as_manifold,
@@ -173,7 +174,9 @@ def judged_parts(parts: Sequence[Part], expectations: Expectations) -> Judgement
     checks = [check for each in judged for check in each.checks]
     necks = _necks(walls, together.joints) if together else {}
     checks += [part_neck_check(name, neck, process=expectations.process) for name, neck in necks.items()]
-    checks += together.checks if together else ()
+    if together:
+        volumes = {part.name: each.facts.volume_mm3 for part, each in zip(parts, judged, strict=True)}
+        checks += (*together.checks, whole_check("fit.whole", volumes, expectations.spaces))
     clearance, process = expectations.clearance, expectations.process
     checks.append(process_gap_check(clearance, process=process))
     checks.append(neck_check(expectations.neck, clearance=clearance, process=process))

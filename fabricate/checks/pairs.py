@@ -16,7 +16,7 @@ from fabricate.checks.check import Check
 from fabricate.checks.contacts import REACH, TOUCHING, Facing, shared_area
 from fabricate.checks.expectations import Expectations
 from fabricate.checks.facts import FitFacts, Gap, PairFacts, Verdict
-from fabricate.checks.fit import OVERLAP_SHARE, gap_check, overlap_check, whole_check, widest_gap_check
+from fabricate.checks.fit import OVERLAP_SHARE, gap_check, overlap_check, widest_gap_check
 from fabricate.checks.gap import Spacing, smallest_gap, widest_gap
 from fabricate.checks.holding import Holding, holding, holding_check
 from fabricate.checks.wording import counted
@@ -83,7 +83,7 @@ def fit(parts: Sequence[Part], solids: Mapping[str, Solid], expectations: Expect
         spaces_mm3=expectations.spaces,
     )
     joined = _joined(parts, list(pairs.values()), expectations.clearance)
-    return Fit(facts, (*checks, *joined, _whole(parts, expectations)), _joints(pairs.values()))
+    return Fit(facts, (*checks, *joined), _joints(pairs.values()))
 
 
 def _pair(prefix: str, first: Solid, second: Solid, expectations: Expectations, *, only_pair: bool) -> _Pair:
@@ -211,11 +211,3 @@ def _groups(count: int, linked: Sequence[bool]) -> int:
     links = [ends for ends, link in zip(combinations(range(count), 2), linked, strict=True) if link]
     graph = coo_array((np.ones(len(links)), np.reshape(links, (-1, 2)).T.astype(np.int64)), shape=(count, count))
     return int(connected_components(graph, directed=False)[0])
-
-
-def _whole(parts: Sequence[Part], expectations: Expectations) -> Check:
-    code = "fit.whole"
-    if expectations.spaces is None:
-        message = "volumes were not added up, because the uncut shell is not known"
-        return Check(code, ok=False, skipped=True, message=message)
-    return whole_check(code, parts, expectations.spaces)

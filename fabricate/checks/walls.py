@@ -118,7 +118,8 @@ class _Probe:
         cosines = np.einsum("ij,ij->i", self.normals[sent.triangles], self.normals[hits.triangle])
         good = (hits.triangle >= 0) & (cosines < OPPOSITE)
         # At its very edge every blade is thin: only middles of triangles count beside the edge that they share.
-        good &= (sent.areas > 0.0) | ~self._meet(sent.triangles, hits.triangle)
+        beside = np.flatnonzero(good & (sent.areas == 0.0))
+        good[beside] = ~self._meet(sent.triangles[beside], hits.triangle[beside])
         faces = np.column_stack([sent.triangles, hits.triangle])
         return Walls(hits.distance[good], sent.places[good], sent.areas[good], faces[good])
 

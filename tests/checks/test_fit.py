@@ -115,7 +115,8 @@ def test_parts_that_overlap_are_said_to() -> None:
 
 
 def whole(parts: tuple[Part, ...], space: Part, shell: Part) -> Check:
-    return whole_check("fit.whole", parts, Spaces(signed_volume(space), signed_volume(shell)))
+    volumes = {part.name: signed_volume(part) for part in parts}
+    return whole_check("fit.whole", volumes, Spaces(signed_volume(space), signed_volume(shell)))
 
 
 @pytest.mark.parametrize(
