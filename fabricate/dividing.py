@@ -25,6 +25,7 @@ from fabricate.solid.polygon_budget import Affordable, affordable
 from fabricate.solid.settling import fitted_cut, has_room
 from fabricate.solid.spacing import spaced
 from fabricate.solid.thick_enough import check_thick
+from fabricate.solid.ways_in import opened
 from fabricate.stopwatch import Stopwatch
 from fabricate.surface.cut import CutSurface
 from fabricate.surface.tile_choice import chosen_tiling, sized_surface
@@ -126,9 +127,9 @@ def _surface(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float)
     make, share = partial(_cut, duotone, tiling, config, tolerance), config.pattern.area_share
     clearance = config.solid.clearance
     if share is None:
-        return spaced(make(config.pattern.positions), clearance=clearance)
+        return spaced(opened(make(config.pattern.positions)), clearance=clearance)
     shared = shared_cut(duotone, share=share, make=make, fits=partial(has_room, clearance=clearance))
-    return spaced(shared, clearance=clearance)
+    return spaced(opened(shared), clearance=clearance)
 
 
 def _cut(duotone: Duotone, tiling: Tiling, config: Config, tolerance: float, rings: tuple[float, ...]) -> CutSurface:
