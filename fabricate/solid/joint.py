@@ -17,29 +17,29 @@ they move less.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
-from scipy.ndimage import minimum_filter1d
 
 from fabricate.arrays import Floats, Indices, Mask
 from fabricate.config.solid_config import WIDEST_TONGUE
 from fabricate.errors import SolidError
-from fabricate.solid.clearance import SMOOTHING, half_length, smoothed
+from fabricate.solid.clearance import half_length
 from fabricate.solid.layers import Layer
 from fabricate.surface.cut import CutSurface, HalfRays
 from fabricate.triangles.normals import unit, vertex_normals
 
 JointKind: TypeAlias = Literal["straight", "draft", "tongue"]
 
-RIDGE = ((-0.5, 0.0), (-0.2, 0.76), (0.0, 1.0), (0.2, 0.76), (0.5, 0.0))
+RIDGE = ((-0.5, 0.0), (-0.15, 0.8), (0.0, 1.0), (0.15, 0.8), (0.5, 0.0))
 """The rounded ridge, from the outside in: places across it, in widths from its middle, and heights there."""
 
 _SLOPES = np.diff(np.array(RIDGE)[:, 1]) / np.diff(np.array(RIDGE)[:, 0])
 _SIDE = float(np.abs(_SLOPES).max())
 
-OWN_WIDTH = (0.6, 0.75)
+OWN_WIDTH = (0.6, WIDEST_TONGUE)
 """Width of a ridge for which none is asked, as a share of the wall's thickness, from a low one to a tall one."""
 
 OWN_HEIGHT, MORE_THAN_CLEARANCE = 0.4, 0.15
@@ -48,8 +48,9 @@ OWN_HEIGHT, MORE_THAN_CLEARANCE = 0.4, 0.15
 OWN_ANGLE = 3.0
 """How far a draft leans for which no angle is asked, where it fits, degrees."""
 
-LEAST_HEIGHT = 0.1
-"""Where not even so high a ridge fits, there is none, mm."""
+LEAST_HEIGHT, HOLDS = 0.1, 0.05
+"""A ridge for which no height is asked is at least so high, and by so much higher than the clearance, or it would pass
+through the gap; mm."""
 
 STEEPEST = np.radians(41.0)
 """Largest angle of a ridge's sides to the wall: beside a groove whose sides are steeper are lips as thin as walls."""
@@ -59,6 +60,9 @@ LEAST_STEP = 0.2
 
 HALVINGS = 12
 """How often the range of heights is halved to find the tallest ridge."""
+
+TAPER = 0.12
+"""By how much the way aside changes at most for each mm along the curve: walls at a slant are nearer to each other."""
 
 MOST_ASIDE = 0.75
 """How far walls move aside at most, as a share of the room beside the curve; half of the clearance is taken off it."""
@@ -146,21 +150,17 @@ def fitted_joint(surface: CutSurface, inner: Floats, joint: Joint, *, thickness:
 
 
 def _fitted_tongue(surface: CutSurface, inner: Floats, joint: Joint, *, thickness: float, clearance: float) -> Joint:
-    own = max(OWN_HEIGHT, clearance + MORE_THAN_CLEARANCE)
-    least, most = OWN_WIDTH
-    own_width = float(np.clip(own * _SIDE / np.tan(STEEPEST), least * thickness, most * thickness))
-    width = own_width if joint.width is None else joint.width
     widest = WIDEST_TONGUE * thickness
-    if width > widest:
+    if joint.width is not None and joint.width > widest:
         raise SolidError(
-            f"a tongue {width:g} mm wide does not fit into a wall of {thickness:g} mm; the largest solid.tongue.width "
-            f"that fits is {_floored(widest):g} mm"
+            f"a tongue {joint.width:g} mm wide does not fit into a wall of {thickness:g} mm; the largest "
+            f"solid.tongue.width that fits is {_floored(widest):g} mm"
         )
-    places = _places(surface, surface.points, inner, joint, widest=width, clearance=clearance)
-    tallest = np.concatenate([place.tallest for place in places])
     if joint.height is None:
-        return replace(joint, height=_own_height(tallest, clearance=clearance), width=width)
-    fits = _floored(float(np.quantile(tallest, 1.0 - FITS_IN)))
+        return _own_tongue(surface, inner, joint, clearance=clearance)
+    width = _width(surface, inner, joint, clearance=clearance)
+    places = _places(surface, surface.points, inner, joint, widest=width, clearance=clearance)
+    fits = _floored(float(np.quantile(np.concatenate([place.tallest for place in places]), 1.0 - FITS_IN)))
     if joint.height > fits:
         raise SolidError(
             f"a tongue that stands out by {joint.height:g} mm does not fit beside the curve and into the wall; the "
@@ -170,15 +170,48 @@ def _fitted_tongue(surface: CutSurface, inner: Floats, joint: Joint, *, thicknes
     return replace(joint, width=width)
 
 
-def _own_height(tallest: Floats, *, clearance: float) -> float:
-    """Return the height of a ridge for which none is asked, mm, from what fits at each point of the curves."""
-    fits = _floored(float(np.median(tallest)))
-    if fits < LEAST_HEIGHT:
-        raise SolidError(
-            f"no tongue fits beside the curve: there is room for {fits:g} mm, and at least {LEAST_HEIGHT:g} mm are "
-            "needed; ask for a larger pattern.tile_size or a smaller solid.clearance"
-        )
-    return min(fits, max(OWN_HEIGHT, clearance + MORE_THAN_CLEARANCE))
+def _width(surface: CutSurface, inner: Floats, joint: Joint, *, clearance: float) -> float:
+    """Return the width of a ridge, mm; where none is asked, one whose sides are not too steep for its own height.
+
+    It is one for the wall that half of the curves have: where that is thinner, the ridge is smaller.
+    """
+    if joint.width is not None:
+        return joint.width
+    depth = float(np.median(np.linalg.norm(inner - surface.points, axis=1)[surface.curves]))
+    least, most = (share * depth for share in OWN_WIDTH)
+    return float(np.clip(_own_height(clearance) * _SIDE / np.tan(STEEPEST), least, most))
+
+
+def _own_height(clearance: float) -> float:
+    return max(OWN_HEIGHT, clearance + MORE_THAN_CLEARANCE)
+
+
+def _least_height(clearance: float) -> float:
+    return max(LEAST_HEIGHT, clearance + HOLDS)
+
+
+def _own_tongue(surface: CutSurface, inner: Floats, joint: Joint, *, clearance: float) -> Joint:
+    """Return the tongue with a height where none is asked for, which most of the curve has room for."""
+
+    def fitting(gap: float) -> Joint:
+        width = _width(surface, inner, joint, clearance=gap)
+        places = _places(surface, surface.points, inner, joint, widest=width, clearance=gap)
+        fits = float(np.median(np.concatenate([place.tallest for place in places])))
+        return replace(joint, height=_floored(min(fits, _own_height(gap))), width=width)
+
+    def holds(gap: float) -> bool:
+        return (fitting(gap).height or 0.0) >= _floored(_least_height(gap))
+
+    if holds(clearance):
+        return fitting(clearance)
+    smaller = 0.01 * np.arange(math.ceil(100.0 * clearance - 1e-9))
+    would = int(bisect_left(smaller, True, key=lambda gap: not holds(gap)))
+    largest = f"the largest solid.clearance with which one fits is {smaller[would - 1]:.2g} mm: ask for that, or for "
+    raise SolidError(
+        f"no tongue fits beside the curve: there is room for {fitting(clearance).height:g} mm, and to hold it has to "
+        f"stand out by {_least_height(clearance):g} mm; {largest if would > 1 else 'ask for '}"
+        "a larger pattern.tile_size or a thicker wall"
+    )
 
 
 def _fitted_draft(surface: CutSurface, inner: Floats, joint: Joint, *, clearance: float) -> Joint:
@@ -252,7 +285,7 @@ def _places(
         lips = ((above[curve], down), (-below[curve], -down))
         steepest = np.min([_steepest(*lip, beside.way) for lip in lips], axis=0)
         tallest = _tallest(width, depth, steepest, clearance=clearance)
-        places.append(_Place(beside, depth, width, gently(np.minimum(limit, tallest))))
+        places.append(_Place(beside, depth, width, tapered(np.minimum(limit, tallest), middle[curve])))
     return places
 
 
@@ -315,15 +348,22 @@ def _limits(surface: CutSurface, points: Floats, joint: Joint, *, clearance: flo
     They move into the region on the right, or on the left where a draft is negative, and leave half of a neck of it.
     """
     rooms = [beside.left if joint.slope < 0.0 else beside.right for beside in _all_beside(surface, points)]
-    return [
-        gently(np.minimum(MOST_ASIDE * room, room - 0.5 * NECK_SPARE * joint.neck) - 0.5 * clearance) for room in rooms
-    ]
+    limits = [np.minimum(MOST_ASIDE * room, room - 0.5 * NECK_SPARE * joint.neck) - 0.5 * clearance for room in rooms]
+    return [tapered(limit, points[curve]) for limit, curve in zip(limits, surface.curves, strict=True)]
 
 
-def gently(limits: Floats) -> Floats:
-    """Return limits along a curve, (c,), that change gently and are nowhere larger, nor negative."""
-    least: Floats = minimum_filter1d(np.maximum(limits, 0.0), 2 * SMOOTHING + 1, mode="wrap")
-    return smoothed(least)
+def tapered(limits: Floats, curve: Floats, *, taper: float = TAPER) -> Floats:
+    """Return the largest limits along a closed curve, (c,) at points (c, 3) mm, that are nowhere above those given.
+
+    Nor do they change by more than `taper` for each mm; none is negative.
+    """
+    steps = np.linalg.norm(np.roll(curve, -1, axis=0) - curve, axis=1)
+    rise = taper * np.concatenate([[0.0], np.cumsum(np.tile(steps, 3))[:-1]])
+    least = np.tile(np.maximum(limits, 0.0), 3)
+    ahead = np.minimum.accumulate(least - rise) + rise
+    behind = (np.minimum.accumulate((least + rise)[::-1]) - rise[::-1])[::-1]
+    around: Floats = np.minimum(ahead, behind).reshape(3, -1)[1]
+    return np.maximum(around, 0.0)
 
 
 def _all_beside(surface: CutSurface, points: Floats) -> list[_Beside]:

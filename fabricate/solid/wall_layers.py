@@ -13,15 +13,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fabricate.arrays import Floats, Indices, Mask
+from fabricate.arrays import Floats, Indices
 from fabricate.solid.clearance import Shares
 from fabricate.solid.facing import WallGaps, middle_gaps
 from fabricate.solid.floor import floor_drop, lowered
-from fabricate.solid.joint import Joint, asides, gently, ridges
+from fabricate.solid.joint import Joint, asides, ridges, tapered
 from fabricate.solid.layers import Layer, layer, layer_shares, shares_aside, shares_near
+from fabricate.solid.lips import lip_steepness
 from fabricate.solid.unfolding import unfolded
 from fabricate.surface.cut import CutSurface
-from fabricate.triangles.normals import unit
+from fabricate.triangles.normals import unit, vertex_normals
 
 CORRECTIONS, MOST_ADDED = 3, 1.25
 """How often walls are measured to move apart what is too near, and by which factor they move at most each time."""
@@ -30,8 +31,15 @@ EASINGS = {"straight": 0, "draft": 1, "tongue": 3}
 """How often before that joints become smaller where walls are too near."""
 
 EASED, EASIER = {"straight": np.inf, "draft": 1.04, "tongue": 1.025}, 0.6
-"""Clearance over measured gap from which on a joint gets smaller, and to which share each time: walls moved apart as
-far as that would leave too wide a gap."""
+"""Clearance over measured gap from which on a joint gets smaller, and to which share at least each time: walls moved
+apart as far as that would leave too wide a gap."""
+
+BLUNT = 0.74
+"""Sine of the angle between the wall and a groove's sides from which on it gets smaller: steeper ones have walls beside
+them, not lips."""
+
+EASED_TAPER = 0.15
+"""By how much that share changes at most for each mm along the curve."""
 
 NOTHING_MISSING = 1.01
 """Clearance over measured gap from which on walls are moved apart."""
@@ -117,7 +125,7 @@ def wall_layers(
             break
         measured = _measured(surface, layers, keeper, measured)
         least = -_widened(-_smallest(measured)) / clearance
-        moves = _drawn_together(moves, wide, least)
+        moves = _drawn_together(surface, moves, wide, least)
         layers = _laid(task, shares, moves)
     return layers
 
@@ -147,12 +155,16 @@ def _moved_apart(task: _Task) -> _Apart:
         drop = (
             moves.drop if keeper is None else _deeper(surface, layers, moves.drop, keeper=keeper, clearance=clearance)
         )
+        ease = EASED[task.joint.kind] if step < easings else np.inf
+        smaller = _easier(_widened(missing), ease)
+        if step < easings:
+            smaller = np.minimum(smaller, _blunt(task, layers))
         short = (missing > NOTHING_MISSING).any() or (drop > NOTHING_MISSING * moves.drop).any()
+        short |= (smaller < 1.0).any()
         if not short or step + 1 == easings + CORRECTIONS:
             break
-        ease = EASED[task.joint.kind] if step < easings else np.inf
         wanted = moves.wanted * np.clip(_widened(missing), 1.0, min(MOST_ADDED, ease))
-        moves = _Moves(wanted, _eased(moves.size, missing > ease), full, drop)
+        moves = _Moves(wanted, _eased(surface, moves.size, smaller), full, drop)
     return _Apart(moves, shares, layers, measured)
 
 
@@ -188,7 +200,7 @@ def _drawn_back(shares: Shares, drawn: Floats) -> Shares:
     return Shares(shares.left * drawn, shares.right * drawn)
 
 
-def _drawn_together(moves: _Moves, wide: Floats, least: Floats) -> _Moves:
+def _drawn_together(surface: CutSurface, moves: _Moves, wide: Floats, least: Floats) -> _Moves:
     """Return moves that make the gap less wide where it is too wide, and keep the clearance.
 
     `wide` and `least`, (k, c), are the widest gap along the mid-line and the smallest one, in clearances. Where both
@@ -197,13 +209,37 @@ def _drawn_together(moves: _Moves, wide: Floats, least: Floats) -> _Moves:
     most, fewest = np.minimum(DRAWN / wide, 1.0), KEPT / np.maximum(least, 1e-9)
     too_wide = wide > WIDE
     factor = np.where(too_wide | (moves.drawn < 1.0), np.maximum(np.where(too_wide, most, 1.0), fewest), 1.0)
-    size = _eased(moves.size, too_wide & (fewest > most))
+    size = _eased(surface, moves.size, np.where(too_wide & (fewest > most), EASIER, 1.0))
     return moves._replace(size=size, drawn=np.minimum(moves.drawn * factor, 1.0))
 
 
-def _eased(size: Floats, tight: Mask) -> Floats:
-    """Return the size of a joint along each curve, (k, c) as shares, smaller where it is tight and close by."""
-    return size * np.stack([gently(each) for each in np.where(tight, EASIER, 1.0)])
+def _easier(missing: Floats, ease: float) -> Floats:
+    """Return the shares, (k, c), by which a joint is to become smaller where more than `ease` is missing.
+
+    What a joint takes of the gap falls with its size.
+    """
+    taken = 1.0 - 1.0 / np.maximum(missing, 1.0 + 1e-9)
+    return np.where(missing > ease, np.clip((1.0 - 1.0 / ease) / taken, EASIER, 1.0), 1.0)
+
+
+def _blunt(task: _Task, layers: WallLayers) -> Floats:
+    """Return the shares, (k, c), by which a joint is to become smaller where the lips beside a groove are too blunt."""
+    surface = task.surface
+    if not layers.rings:
+        return np.ones(surface.curves.shape)
+    above, below = (vertex_normals(points, surface.triangles) for points in (surface.points, task.inner))
+    down = layers.down(to_floor=False)
+    steep = [
+        lip_steepness(np.stack([each.copies[number + 1][curve] for each in down]), above[curve], -below[curve])
+        for number, curve in enumerate(surface.curves)
+    ]
+    return np.clip(BLUNT / np.maximum(_widened(np.stack(steep)), 1e-9), EASIER, 1.0)
+
+
+def _eased(surface: CutSurface, size: Floats, shares: Floats) -> Floats:
+    """Return the size of a joint along each curve, (k, c), made smaller by shares, (k, c), and around them."""
+    curves = zip(shares, surface.points[surface.curves], strict=True)
+    return size * np.stack([tapered(each, curve, taper=EASED_TAPER) for each, curve in curves])
 
 
 def _deeper(surface: CutSurface, layers: WallLayers, drop: Floats, *, keeper: int, clearance: float) -> Floats:

@@ -7,13 +7,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from fabricate.checks.joint_profile import joint_facts
 from fabricate.duotone.spanning_tree import grown_duotone
 from fabricate.errors import SolidError
 from fabricate.mesh.sphere import sphere
 from fabricate.mesh.torus import torus
 from fabricate.solid.assembly import Assembly, Core, assembly
 from fabricate.solid.booleans import manifold_of
-from fabricate.solid.joint import STRAIGHT, Joint, fitted_joint
+from fabricate.solid.joint import STRAIGHT, Joint, fitted_joint, tapered
 from fabricate.solid.part import Part
 from fabricate.solid.settling import fitted_cut
 from fabricate.solid.solids import solids
@@ -140,7 +141,7 @@ def test_sizes_that_are_not_given_are_those_that_fit() -> None:
     found = fitted_joint(surface, inner, Joint(kind="tongue"), thickness=THICKNESS, clearance=0.3)
     assert found.height == pytest.approx(0.45)
     assert found.width is not None
-    assert 0.6 * THICKNESS <= found.width <= 0.75 * THICKNESS
+    assert 0.6 * THICKNESS <= found.width <= 0.8 * THICKNESS
     assert fitted_joint(surface, inner, DRAFT, thickness=THICKNESS, clearance=0.3) == DRAFT
 
 
@@ -150,12 +151,46 @@ def test_where_no_tongue_fits_that_is_said() -> None:
         solids(surface, thickness=THICKNESS, clearance=0.3, joint=Joint(kind="tongue", neck=9.0))
 
 
+def test_a_tongue_that_would_pass_through_the_gap_is_refused_with_the_clearance_that_it_fits() -> None:
+    surface = cut_surface(clearance=0.5)
+    thin = 1.1
+    with pytest.raises(SolidError, match="no tongue fits") as caught:
+        solids(surface, thickness=thin, clearance=0.5, joint=Joint(kind="tongue"))
+    largest = float(str(caught.value).split("solid.clearance with which one fits is ")[1].split(" mm")[0])
+    assert 0.1 < largest < 0.5
+    found = solids(surface, thickness=thin, clearance=largest, joint=Joint(kind="tongue"))
+    ridge = joint_facts(surface, found, "tongue").ridge_mm
+    assert ridge is not None
+    assert ridge.median > largest
+    with pytest.raises(SolidError, match="no tongue fits"):
+        solids(surface, thickness=thin, clearance=largest + 0.011, joint=Joint(kind="tongue"))
+
+
+def test_where_walls_are_mostly_thick_the_ridge_is_one_for_these() -> None:
+    surface = cut_surface(clearance=0.3)
+    depth = np.where(surface.points[:, 0] > np.quantile(surface.points[:, 0], 0.8), 1.0, THICKNESS)
+    inner = surface.points - depth[:, None] * surface.normals
+    found = fitted_joint(surface, inner, Joint(kind="tongue"), thickness=1.0, clearance=0.3)
+    assert found.height == pytest.approx(0.45)
+
+
+def test_limits_taper_off_by_the_millimetre() -> None:
+    """A limit of 0 at one place lets others rise with their way to it, the shorter one round the curve."""
+    angles = 2.0 * np.pi * np.arange(200) ** 2 / 200**2
+    circle = 10.0 * np.stack([np.cos(angles), np.sin(angles), np.zeros(200)], axis=1)
+    limits = np.where(np.arange(200) == 50, 0.0, 2.0)
+    way = 10.0 * np.abs(np.remainder(angles - angles[50] + np.pi, 2.0 * np.pi) - np.pi)
+    assert tapered(limits, circle, taper=0.1) == pytest.approx(np.minimum(0.1 * way, 2.0), abs=1e-3)
+    assert tapered(np.full(200, -1.0), circle).tolist() == [0.0] * 200
+    assert tapered(np.full(200, 2.0), circle).tolist() == pytest.approx([2.0] * 200)
+
+
 def test_a_wide_neck_asks_for_a_lower_ridge() -> None:
     surface = cut_surface(clearance=0.3)
     inner = surface.points - THICKNESS * surface.normals
     sizes = [
         fitted_joint(surface, inner, Joint(kind="tongue", neck=neck), thickness=THICKNESS, clearance=0.3).height
-        for neck in (0.0, 1.8)
+        for neck in (0.0, 2.6)
     ]
     assert sizes[0] is not None
     assert sizes[1] is not None
