@@ -20,6 +20,7 @@ from fabricate.solid.room import Places, roomy_places
 from fabricate.solid.sound_turn import is_sound
 from fabricate.solid.stand import placed_stand, stand_solid
 from fabricate.triangles.crossing import crossing_triangles
+from fabricate.triangles.normals import area_vectors
 from fabricate.triangles.search_tree import SearchTree
 
 DIAMETER, CLEARANCE, RIM, THICKNESS = 3.5, 0.3, 0.8, 2.0
@@ -95,7 +96,8 @@ def test_what_does_not_fit_is_refused_with_the_size_that_would(ring: Crafted, co
 
 
 def thinnest(part: Part) -> float:
-    spread = walls(part, SearchTree.of(part.points, part.triangles)).spread
+    tree, vectors = SearchTree.of(part.points, part.triangles), area_vectors(part.points, part.triangles)
+    spread = walls(part, tree, vectors).spread
     assert spread is not None
     return spread.min
 
