@@ -55,7 +55,7 @@ class TongueConfig(Section):
     height: Literal["auto"] | Annotated[Length, Field(gt=0)] = "auto"
     """How far it stands out of the wall; auto: 0.4 mm or a little more than the clearance, where that fits."""
     width: Literal["auto"] | Annotated[Length, Field(gt=0)] = "auto"
-    """How wide it is down the wall, at most 0.8 of the thickness; auto: 0.6 to 0.75 of it, more for a tall one."""
+    """How wide it is down the wall, at most 0.8 of the thickness; auto: 0.6 to 0.8 of it, more for a tall one."""
 
 
 def _kind(value: object) -> str:
